@@ -1,0 +1,339 @@
+//! Everything a run depends on, checked and in SI units: the world, the car, its sensors,
+//! the network's shape, how an episode goes, what it costs, and how evolution searches.
+//!
+//! A [`Scenario`] is always valid. What a person types (TOML, `--set`, `--preset`) is a
+//! different type, in [`file`]; turning one into the other is the only place that refuses.
+//! Lengths are metres, angles radians, counter-clockwise positive (the ROS convention).
+
+use controller_core::activation::ActivationKind;
+use controller_core::network::RecurrenceKind;
+use controller_core::observation::{BeamMount, Encoding, BEAMS};
+use serde::{Deserialize, Serialize};
+
+/// A complete, valid description of what to train or judge a controller on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scenario {
+    /// Short name; also the default name of a run folder. Letters, digits, `-` and `_`.
+    pub name: String,
+    /// One line for people.
+    pub description: String,
+    /// Obstacles and target.
+    pub world: WorldSpec,
+    /// The car's body and its steering.
+    pub vehicle: VehicleSpec,
+    /// The beams and how they become the seven inputs.
+    pub sensors: SensorSpec,
+    /// The network's shape.
+    pub network: NetworkSpec,
+    /// How one drive goes and ends.
+    pub episode: EpisodeSpec,
+    /// What one drive costs (paper, eq. 3).
+    pub fitness: FitnessSpec,
+    /// The start poses and goals that training drives.
+    pub pairs: PairSpec,
+    /// The search.
+    pub training: TrainingSpec,
+}
+
+/// Obstacles, the room around them, and the size of the target.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WorldSpec {
+    /// The room; starts and goals are drawn inside it.
+    pub bounds: Bounds,
+    /// Whether the room's edge is a wall.
+    pub outer_wall: bool,
+    /// Radius of the target disc, metres, above 0.
+    pub target_radius: f32,
+    /// Solid axis-aligned boxes `[x0, y0, x1, y1]`, `x0 < x1`, `y0 < y1`.
+    pub boxes: Vec<[f32; 4]>,
+    /// Solid simple polygons, at least three corners each, either orientation.
+    pub polygons: Vec<Vec<[f32; 2]>>,
+    /// Solid discs.
+    pub circles: Vec<Circle>,
+    /// Walls along a line of points, with a thickness (0 is allowed: a sheet).
+    pub walls: Vec<Wall>,
+    /// An occupancy grid in the format of ROS `map_server`.
+    pub map: Option<MapSpec>,
+}
+
+/// An axis-aligned rectangle, metres.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bounds {
+    /// Lower left corner.
+    pub min: [f32; 2],
+    /// Upper right corner.
+    pub max: [f32; 2],
+}
+
+/// A solid disc.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Circle {
+    /// Centre, metres.
+    pub centre: [f32; 2],
+    /// Radius, metres, above 0.
+    pub radius: f32,
+}
+
+/// A wall along an open line of points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Wall {
+    /// At least two points, no two neighbours equal.
+    pub points: Vec<[f32; 2]>,
+    /// Full thickness in metres, 0 or more; the line is the middle.
+    pub thickness: f32,
+}
+
+/// An occupancy grid and how to read it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MapSpec {
+    /// The map's YAML file, as found (relative paths are relative to the scenario file).
+    pub yaml: std::path::PathBuf,
+    /// Whether unknown cells are obstacles.
+    pub unknown_is_obstacle: bool,
+    /// Cells at or above this occupancy (0 to 100) are obstacles. `map_server` publishes
+    /// 100 for occupied cells in every mode, so 100 is the usual choice.
+    pub lethal: u8,
+}
+
+/// The car's body and its steering. The reference point is the middle of the front axle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VehicleSpec {
+    /// Body length, metres.
+    pub length: f32,
+    /// Body width, metres.
+    pub width: f32,
+    /// Distance from the front axle to the front bumper, metres, within `0..=length`.
+    pub front_overhang: f32,
+    /// Distance between the axles, metres.
+    pub wheelbase: f32,
+    /// How far the car moves in one control period.
+    pub step: StepLength,
+    /// Largest steer angle, radians, above 0 and at most π/2.
+    pub steer_limit: f32,
+    /// How fast the steering servo turns, radians per second; none means at once.
+    pub servo_rate: Option<f32>,
+    /// Whole control periods between deciding and acting, at most
+    /// [`VehicleSpec::MAX_DELAY`].
+    pub delay_periods: u8,
+}
+
+impl VehicleSpec {
+    /// Longest actuator delay, control periods.
+    pub const MAX_DELAY: u8 = 8;
+}
+
+/// Distance per control period, metres.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StepLength {
+    /// Constant speed (the paper's experiments).
+    Constant(f32),
+    /// Chosen each period by a second output neuron (paper, end of section 3).
+    Variable {
+        /// At output −1.
+        lower: f32,
+        /// At output +1.
+        upper: f32,
+    },
+}
+
+/// The beams and how they become the seven inputs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SensorSpec {
+    /// Where each beam starts and points, in the frame of the front axle, rightmost first.
+    pub beams: [BeamMount; BEAMS],
+    /// Longest distance a beam reports, metres.
+    pub range: f32,
+    /// How readings become network inputs.
+    pub encoding: Encoding,
+    /// Standard deviation of Gaussian distance noise, metres; 0 is none.
+    pub noise: f32,
+    /// Probability that a beam misses its echo and reads "nothing in range".
+    pub dropout: f32,
+}
+
+/// The network's shape: 7 inputs, two hidden layers, one output, or two with
+/// [`StepLength::Variable`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NetworkSpec {
+    /// Neurons in each hidden layer, one of [`NetworkSpec::HIDDEN`].
+    pub hidden: u8,
+    /// What a hidden neuron remembers.
+    pub recurrence: RecurrenceKind,
+    /// Whether neurons have biases (the paper's have none).
+    pub biases: bool,
+    /// The activation of every neuron.
+    pub activation: ActivationKind,
+}
+
+impl NetworkSpec {
+    /// Hidden-layer sizes this build can train.
+    pub const HIDDEN: [u8; 4] = [12, 16, 24, 32];
+}
+
+/// How one drive goes and ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EpisodeSpec {
+    /// Control periods before an episode ends unreached.
+    pub step_limit: u32,
+    /// Control period, seconds.
+    pub period: f32,
+    /// What a collision does.
+    pub on_collision: OnCollision,
+    /// What counts as touching the target.
+    pub reached_by: ReachedBy,
+    /// Largest random shift of a start, metres in x and in y.
+    pub start_offset: f32,
+    /// Largest random turn of a start, radians.
+    pub start_turn: f32,
+    /// How far the simulated car may differ from the described one; drawn per episode.
+    pub randomise: RandomiseSpec,
+}
+
+/// What a collision does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum OnCollision {
+    /// The position is kept for that step, the heading still follows the steering, and
+    /// the collision is counted (the paper presets).
+    Hold,
+    /// The episode ends.
+    Stop,
+}
+
+/// What counts as touching the target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ReachedBy {
+    /// The body rectangle touches the target disc.
+    Body,
+    /// The reference point lies in the target disc (BARN and most benchmarks).
+    ReferencePoint,
+}
+
+/// Half-widths of uniform distributions around the described car; 0 is off.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RandomiseSpec {
+    /// Relative deviation of the wheelbase, `0.0..1.0`.
+    pub wheelbase: f32,
+    /// Relative deviation of the step length, `0.0..1.0`.
+    pub step: f32,
+    /// Constant steering error, radians.
+    pub steer_offset: f32,
+}
+
+/// Weights of `F = c1·DTT + c2·LT + c3·C − B·[reached]`, minimised (paper, eq. 3).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FitnessSpec {
+    /// c1: per metre between robot and target at the end.
+    pub distance: f32,
+    /// c2: per metre driven.
+    pub length: f32,
+    /// c3: per collision.
+    pub collision: f32,
+    /// B: taken off when the target is reached.
+    pub bonus: f32,
+}
+
+/// The start poses and goals that training drives.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PairSpec {
+    /// Where they come from.
+    pub source: PairSource,
+    /// Smallest distance between start and goal of a drawn pair, metres.
+    pub min_distance: f32,
+}
+
+/// Where start/goal pairs come from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PairSource {
+    /// Drawn from the run's seed, once or anew each generation.
+    Drawn {
+        /// How many, at least 1.
+        count: u32,
+        /// Whether each generation draws new ones.
+        resample: bool,
+    },
+    /// Written in the scenario, at least 1.
+    Listed(Vec<Pair>),
+}
+
+/// One task: start here, reach that.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pair {
+    /// Start pose of the front axle: x, y, heading.
+    pub start: [f32; 3],
+    /// Centre of the target disc.
+    pub goal: [f32; 2],
+}
+
+/// The search.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrainingSpec {
+    /// Individuals, at least 2.
+    pub population: u32,
+    /// Generations to run, at least 1.
+    pub generations: u32,
+    /// Weights are drawn in, and kept in, `-bound..=bound`.
+    pub weight_bound: f32,
+    /// The genetic algorithm.
+    pub ga: GaSpec,
+}
+
+/// The paper's genetic algorithm: four groups make the next population.
+///
+/// The shares add up to 1; sizes are rounded so that they add up to the population.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GaSpec {
+    /// P1: share selected for single-point crossover.
+    pub crossover_share: f32,
+    /// P2: share selected for mutation.
+    pub mutation_share: f32,
+    /// P3: share copied by rank, best first.
+    pub ranking_share: f32,
+    /// P4: share copied at random.
+    pub random_share: f32,
+    /// How P1 and P2 are selected.
+    pub selection: Selection,
+    /// The toolbox's rate: `ceil(strings · genes · rate · U(0,1))` genes change.
+    pub mutation_rate: f32,
+    /// What a changed gene becomes.
+    pub mutation: Mutation,
+}
+
+/// How parents are selected.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Selection {
+    /// Stochastic universal sampling, weight `1/(f − f_min + 1)` (toolbox `selsus`).
+    Sus,
+    /// Stochastic universal sampling over linear ranks.
+    LinearRank {
+        /// Expected copies of the best, `1.0..=2.0`.
+        pressure: f32,
+    },
+    /// The best share of the population, each equally often.
+    Truncation {
+        /// Above 0, at most 1.
+        share: f32,
+    },
+}
+
+/// What a changed gene becomes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mutation {
+    /// A new uniform value within the bounds (toolbox `mutx`).
+    Uniform,
+    /// Its old value plus `U(−1, 1) · amplitude`, kept within the bounds (toolbox `muta`).
+    Additive {
+        /// Largest change.
+        amplitude: f32,
+    },
+    /// Its old value plus a normal draw, kept within the bounds.
+    Gaussian {
+        /// Standard deviation.
+        sigma: f32,
+    },
+}
