@@ -1,1 +1,3 @@
-//! x
+//! Simulate, evolve, export: the host half of evosteer.
+
+pub mod failure;

@@ -1,1 +1,2 @@
-fn main(){}
+//! The `evosteer` command.
+fn main() {}
