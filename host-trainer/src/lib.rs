@@ -1,3 +1,4 @@
 //! Simulate, evolve, export: the host half of evosteer.
 
+pub mod evolve;
 pub mod failure;

@@ -10,6 +10,8 @@ use controller_core::network::RecurrenceKind;
 use controller_core::observation::{BeamMount, Encoding, BEAMS};
 use serde::{Deserialize, Serialize};
 
+pub use crate::evolve::ga::{GaSpec, Mutation, Selection};
+
 /// A complete, valid description of what to train or judge a controller on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scenario {
@@ -279,61 +281,4 @@ pub struct TrainingSpec {
     pub weight_bound: f32,
     /// The genetic algorithm.
     pub ga: GaSpec,
-}
-
-/// The paper's genetic algorithm: four groups make the next population.
-///
-/// The shares add up to 1; sizes are rounded so that they add up to the population.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct GaSpec {
-    /// P1: share selected for single-point crossover.
-    pub crossover_share: f32,
-    /// P2: share selected for mutation.
-    pub mutation_share: f32,
-    /// P3: share copied by rank, best first.
-    pub ranking_share: f32,
-    /// P4: share copied at random.
-    pub random_share: f32,
-    /// How P1 and P2 are selected.
-    pub selection: Selection,
-    /// The toolbox's rate: `ceil(strings · genes · rate · U(0,1))` genes change.
-    pub mutation_rate: f32,
-    /// What a changed gene becomes.
-    pub mutation: Mutation,
-}
-
-/// How parents are selected.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Selection {
-    /// Stochastic universal sampling, weight `1/(f − f_min + 1)` (toolbox `selsus`).
-    Sus,
-    /// Stochastic universal sampling over linear ranks.
-    LinearRank {
-        /// Expected copies of the best, `1.0..=2.0`.
-        pressure: f32,
-    },
-    /// The best share of the population, each equally often.
-    Truncation {
-        /// Above 0, at most 1.
-        share: f32,
-    },
-}
-
-/// What a changed gene becomes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Mutation {
-    /// A new uniform value within the bounds (toolbox `mutx`).
-    Uniform,
-    /// Its old value plus `U(−1, 1) · amplitude`, kept within the bounds (toolbox `muta`).
-    Additive {
-        /// Largest change.
-        amplitude: f32,
-    },
-    /// Its old value plus a normal draw, kept within the bounds.
-    Gaussian {
-        /// Standard deviation.
-        sigma: f32,
-    },
 }

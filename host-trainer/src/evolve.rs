@@ -1,0 +1,3 @@
+//! The search: knows genomes and costs, never drives.
+
+pub mod ga;

@@ -1,0 +1,5 @@
+//! The paper's genetic algorithm.
+
+mod settings;
+
+pub use settings::{GaSpec, Mutation, Selection, SettingError};
