@@ -2,3 +2,4 @@
 
 pub mod evolve;
 pub mod failure;
+pub mod seed;
