@@ -1,0 +1,115 @@
+//! One decision per control period: encode, run the network, scale, or stop.
+
+use crate::activation::Activation;
+use crate::network::{Network, Recurrence, State};
+use crate::observation::{Encoding, INPUTS, Reading, ReadingError};
+use crate::units::{SteerAngle, StepLength};
+
+/// What the car does until the next control period.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Command {
+    /// Where the front wheels point.
+    pub steer: SteerAngle,
+    /// How far to drive.
+    pub step: StepLength,
+}
+
+impl Command {
+    /// The fail-safe: wheels straight, motor stopped.
+    pub const STOP: Self = Self { steer: SteerAngle::STRAIGHT, step: StepLength::STOP };
+}
+
+/// How network inputs and outputs relate to the car; recorded in the weight blob.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Scaling {
+    /// How readings become inputs.
+    pub encoding: Encoding,
+    /// Longest distance a beam reports, metres.
+    pub range: f32,
+    /// Steer angle at output 1, radians, above 0 and at most π/2.
+    pub steer_limit: f32,
+    /// Metres per control period at speed output −1.
+    pub step_lower: f32,
+    /// Metres per control period at speed output +1, and of a network without speed output.
+    pub step_upper: f32,
+}
+
+impl Scaling {
+    /// The command that the network's outputs mean: the first is the steer angle, a second, if
+    /// any, the speed.
+    #[inline]
+    pub fn command(&self, outputs: &[f32]) -> Command {
+        let steer = outputs.first().copied().unwrap_or(0.0);
+        let step = match outputs.get(1) {
+            Some(speed) => StepLength::from_unit(*speed, self.step_lower, self.step_upper),
+            None => StepLength::from_metres(self.step_upper),
+        };
+        Command { steer: SteerAngle::from_unit(steer, self.steer_limit), step }
+    }
+}
+
+/// Good readings in a row after a bad one before the car moves again.
+pub const RECOVERY: u32 = 3;
+
+/// A network with its memory and its fail-safe.
+///
+/// **State rule.** The network steps only on readings it acts on. A bad reading, and the good
+/// ones that follow it until [`RECOVERY`] in a row, give [`Command::STOP`] and leave the
+/// recurrent state as it was: a fault never enters the memory.
+#[derive(Clone, Debug)]
+pub struct Controller<'a, R: Recurrence, A, const H: usize, const O: usize> {
+    network: Network<'a, R, f32, INPUTS, H, O>,
+    activation: A,
+    scaling: Scaling,
+    state: State<f32, H>,
+    good_readings_owed: u32,
+}
+
+impl<'a, R: Recurrence, A: Activation, const H: usize, const O: usize> Controller<'a, R, A, H, O> {
+    /// A controller at the start of a drive.
+    pub fn new(
+        network: Network<'a, R, f32, INPUTS, H, O>,
+        activation: A,
+        scaling: Scaling,
+    ) -> Self {
+        Self { network, activation, scaling, state: State::reset(), good_readings_owed: 0 }
+    }
+
+    /// Forgets everything: the start of another drive.
+    pub fn reset(&mut self) {
+        self.state = State::reset();
+        self.good_readings_owed = 0;
+    }
+
+    /// Decides on one reading, or stops on the lack of one.
+    pub fn step(&mut self, reading: Result<&Reading, ReadingError>) -> Command {
+        match reading {
+            Err(_) => {
+                self.good_readings_owed = RECOVERY;
+                Command::STOP
+            }
+            Ok(_) if self.good_readings_owed > 1 => {
+                self.good_readings_owed -= 1;
+                Command::STOP
+            }
+            Ok(reading) => {
+                self.good_readings_owed = 0;
+                let inputs = self.scaling.encoding.inputs(&reading.sight(), self.scaling.range);
+                let outputs = self.network.step(self.activation, &mut self.state, &inputs);
+                self.scaling.command(&outputs)
+            }
+        }
+    }
+
+    /// All hidden outputs of the last step that the network made.
+    pub fn state(&self) -> &State<f32, H> {
+        &self.state
+    }
+
+    /// How inputs and outputs relate to the car.
+    pub fn scaling(&self) -> &Scaling {
+        &self.scaling
+    }
+}

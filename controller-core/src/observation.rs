@@ -1,0 +1,257 @@
+//! What the beams report, and how five reports become the network's seven inputs.
+//!
+//! Inputs 0 to 4 are the beams' distances, rightmost first, each in `0.0..=1.0`; inputs 5 and
+//! 6 say whether a wall and whether the target is seen. How exactly is an [`Encoding`]: it is
+//! recorded in the weight blob and implemented here only.
+
+use crate::lane::Lane;
+use core::fmt;
+use serde::{Deserialize, Serialize};
+
+/// Beams of the sensor.
+pub const BEAMS: usize = 5;
+
+/// Inputs of the network: a distance per beam, then "wall" and "target".
+pub const INPUTS: usize = BEAMS + 2;
+
+/// Control periods after which a reading is stale.
+pub const STALE_AFTER: u32 = 3;
+
+/// Where a beam starts and points, in the frame of the front axle (x forward, y left).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BeamMount {
+    /// Metres ahead of the front axle.
+    pub x: f32,
+    /// Metres left of the middle line.
+    pub y: f32,
+    /// Radians to the left of straight ahead.
+    pub angle: f32,
+}
+
+/// What one beam reports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Echo {
+    /// Nothing within range.
+    Nothing,
+    /// An obstacle, at this distance in metres.
+    Wall(f32),
+    /// The target, at this distance in metres.
+    Target(f32),
+}
+
+/// Why a reading cannot be used. The car stops.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum ReadingError {
+    /// A beam did not answer.
+    Missing {
+        /// Index of the beam, rightmost is 0.
+        beam: usize,
+    },
+    /// A distance is NaN, infinite, negative or beyond the sensor's range.
+    OutOfRange {
+        /// Index of the beam, rightmost is 0.
+        beam: usize,
+        /// What it reported, metres.
+        distance: f32,
+    },
+    /// The reading is more than [`STALE_AFTER`] control periods old.
+    Stale {
+        /// Its age in control periods.
+        age: u32,
+    },
+}
+
+impl fmt::Display for ReadingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing { beam } => write!(f, "beam {beam} did not answer"),
+            Self::OutOfRange { beam, distance } => {
+                write!(f, "beam {beam} reported {distance} m, outside its range")
+            }
+            Self::Stale { age } => {
+                write!(f, "the reading is {age} periods old, {STALE_AFTER} are allowed")
+            }
+        }
+    }
+}
+
+impl core::error::Error for ReadingError {}
+
+/// Five checked beam reports: every distance is finite and within `0.0..=range`.
+///
+/// ```
+/// use controller_core::observation::{Echo, Reading, ReadingError};
+///
+/// let echoes = [Some(Echo::Wall(2.0)); 5];
+/// assert!(Reading::new(echoes, 0, 10.0).is_ok());
+///
+/// let unplugged = [Some(Echo::Wall(2.0)), None, None, None, None];
+/// assert_eq!(Reading::new(unplugged, 0, 10.0), Err(ReadingError::Missing { beam: 1 }));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Reading {
+    echoes: [Echo; BEAMS],
+    range: f32,
+}
+
+impl Reading {
+    /// Accepts what the sensors reported, `age` control periods ago.
+    ///
+    /// # Errors
+    ///
+    /// A beam that is missing or whose distance is not in `0.0..=range`, or an age of more than
+    /// [`STALE_AFTER`]: no data is danger, never "free".
+    pub fn new(echoes: [Option<Echo>; BEAMS], age: u32, range: f32) -> Result<Self, ReadingError> {
+        if age > STALE_AFTER {
+            return Err(ReadingError::Stale { age });
+        }
+        let mut checked = [Echo::Nothing; BEAMS];
+        for (beam, (slot, echo)) in checked.iter_mut().zip(echoes).enumerate() {
+            let echo = echo.ok_or(ReadingError::Missing { beam })?;
+            if let Echo::Wall(distance) | Echo::Target(distance) = echo
+                && !(0.0..=range).contains(&distance)
+            {
+                return Err(ReadingError::OutOfRange { beam, distance });
+            }
+            *slot = echo;
+        }
+        Ok(Self { echoes: checked, range })
+    }
+
+    /// The five reports, rightmost first.
+    pub fn echoes(&self) -> &[Echo; BEAMS] {
+        &self.echoes
+    }
+
+    /// The reports as numbers.
+    pub fn sight(&self) -> Sight<f32> {
+        let mut sight =
+            Sight { distance: [self.range; BEAMS], wall: [0.0; BEAMS], target: [0.0; BEAMS] };
+        for (beam, echo) in self.echoes.iter().enumerate() {
+            let (distance, flag) = match echo {
+                Echo::Nothing => continue,
+                Echo::Wall(distance) => (distance, &mut sight.wall),
+                Echo::Target(distance) => (distance, &mut sight.target),
+            };
+            // `beam` counts to BEAMS; `get_mut` keeps the panic path out of the image.
+            if let (Some(slot), Some(seen)) = (sight.distance.get_mut(beam), flag.get_mut(beam)) {
+                *slot = *distance;
+                *seen = 1.0;
+            }
+        }
+        sight
+    }
+}
+
+/// Five beam reports as numbers, one robot per lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight<L> {
+    /// Distance to the hit, or the range where nothing was hit, metres.
+    pub distance: [L; BEAMS],
+    /// 1 where a beam ends on an obstacle, else 0.
+    pub wall: [L; BEAMS],
+    /// 1 where a beam ends on the target, else 0.
+    pub target: [L; BEAMS],
+}
+
+/// How distances are normalised to `0.0..=1.0`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[serde(rename_all = "kebab-case")]
+pub enum DistanceLaw {
+    /// `d / range` (paper, section 3).
+    #[default]
+    Linear,
+    /// `d / (d + half)`: fine near by, coarse far away; one half at `half` metres.
+    Saturating {
+        /// Distance that maps to 0.5, metres, above 0.
+        half: f32,
+    },
+}
+
+/// How five hit types become the inputs "wall" and "target".
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[serde(rename_all = "kebab-case")]
+pub enum TypeCode {
+    /// 1 if any beam ends on one.
+    #[default]
+    Any,
+    /// 1 for the type that the shortest beam ends on; the rightmost wins a tie.
+    Nearest,
+    /// The share of beams that end on one.
+    Share,
+    /// "Wall" as in [`Self::Nearest`], "target" as in [`Self::Any`].
+    NearestWallAnyTarget,
+}
+
+/// How readings become network inputs; recorded in the weight blob.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Encoding {
+    /// How distances are normalised.
+    pub distance: DistanceLaw,
+    /// How hit types become two inputs.
+    pub types: TypeCode,
+}
+
+impl Encoding {
+    /// The network's seven inputs, each in `0.0..=1.0`, for beams of this range in metres.
+    #[inline(always)]
+    pub fn inputs<L: Lane>(self, sight: &Sight<L>, range: f32) -> [L; INPUTS] {
+        let one = L::from(1.0);
+        let [a, b, c, d, e] = match self.distance {
+            DistanceLaw::Linear => {
+                let scale = L::from(1.0 / range);
+                sight.distance.map(|distance| (distance * scale).min(one))
+            }
+            DistanceLaw::Saturating { half } => {
+                let half = L::from(half);
+                sight.distance.map(|distance| distance / (distance + half))
+            }
+        };
+        let (wall, target) = match self.types {
+            TypeCode::Any => (any(&sight.wall), any(&sight.target)),
+            TypeCode::Nearest => nearest(sight),
+            TypeCode::Share => (share(&sight.wall), share(&sight.target)),
+            TypeCode::NearestWallAnyTarget => (nearest(sight).0, any(&sight.target)),
+        };
+        [a, b, c, d, e, wall, target]
+    }
+}
+
+#[inline(always)]
+fn any<L: Lane>(seen: &[L; BEAMS]) -> L {
+    let mut any = L::from(0.0);
+    for beam in seen {
+        any = any.max(*beam);
+    }
+    any
+}
+
+#[inline(always)]
+fn share<L: Lane>(seen: &[L; BEAMS]) -> L {
+    let mut count = L::from(0.0);
+    for beam in seen {
+        count = count + *beam;
+    }
+    count * L::from(1.0 / BEAMS as f32)
+}
+
+#[inline(always)]
+fn nearest<L: Lane>(sight: &Sight<L>) -> (L, L) {
+    let mut best = (L::from(f32::INFINITY), L::from(0.0), L::from(0.0));
+    for ((distance, wall), target) in sight.distance.iter().zip(&sight.wall).zip(&sight.target) {
+        let nearer = distance.lt(best.0);
+        best = (
+            L::select(nearer, *distance, best.0),
+            L::select(nearer, *wall, best.1),
+            L::select(nearer, *target, best.2),
+        );
+    }
+    (best.1, best.2)
+}

@@ -1,0 +1,72 @@
+//! The three tanh over a stride of all f32, against tanh in double precision.
+
+use controller_core::activation::{Activation, ActivationKind, tanh};
+use controller_core::lane::Lanes;
+
+/// Every 1021st bit pattern: 4.2 million inputs over all exponents and both signs.
+fn stride() -> impl Iterator<Item = f32> {
+    (0..=u32::MAX).step_by(1021).map(f32::from_bits)
+}
+
+fn apply(kind: ActivationKind, x: f32) -> f32 {
+    let mut sums = [x];
+    kind.apply(&mut sums);
+    sums[0]
+}
+
+/// Spacing of f32 around a value.
+fn ulp(value: f64) -> f64 {
+    let exponent = value.abs().max(f64::from(f32::MIN_POSITIVE)).log2().floor();
+    (exponent - 23.0).exp2()
+}
+
+/// Largest error in ULP of the exact value, and the largest absolute one.
+fn worst(kind: ActivationKind) -> (f64, f64) {
+    let mut worst = (0.0f64, 0.0f64);
+    for x in stride().filter(|x| x.is_finite()) {
+        let exact = libm::tanh(f64::from(x));
+        let error = (f64::from(apply(kind, x)) - exact).abs();
+        worst = (worst.0.max(error / ulp(exact)), worst.1.max(error));
+    }
+    worst
+}
+
+#[test]
+fn the_documented_error_bounds_hold() {
+    let (ulps, absolute) = worst(ActivationKind::Rational);
+    assert!(ulps <= 5.81 && absolute <= 3.6e-7, "rational: {ulps} ULP, {absolute:e}");
+    let (ulps, absolute) = worst(ActivationKind::Libm);
+    assert!(ulps <= 2.19 && absolute <= 8.5e-8, "libm: {ulps} ULP, {absolute:e}");
+    let (_, absolute) = worst(ActivationKind::Micromath);
+    assert!(absolute <= 1.1e-3, "micromath: {absolute:e}");
+}
+
+#[test]
+fn no_tanh_ever_leaves_plus_minus_one_and_nan_stays_nan() {
+    for kind in [ActivationKind::Rational, ActivationKind::Libm, ActivationKind::Micromath] {
+        for x in stride() {
+            let y = apply(kind, x);
+            assert_eq!(y.is_nan(), x.is_nan(), "{kind} of {x:e}");
+            assert!(y.is_nan() || y.abs() <= 1.0, "{kind} of {x:e} is {y}");
+        }
+    }
+}
+
+#[test]
+fn the_default_tanh_is_odd_and_wide_lanes_repeat_it() {
+    for x in stride().filter(|x| !x.is_nan()) {
+        assert_eq!(tanh(-x).to_bits(), (-tanh(x)).to_bits());
+        let wide: Lanes<4> = tanh(Lanes([x, -x, x, 0.5]));
+        assert_eq!(
+            wide.0.map(f32::to_bits),
+            [tanh(x), tanh(-x), tanh(x), tanh(0.5)].map(f32::to_bits)
+        );
+    }
+}
+
+#[test]
+fn recorded_bits_of_the_default_tanh() {
+    let inputs = [0.0f32, 1e-30, 0.001, 0.1, 0.5, 1.0, 2.5, 8.0, 8.089_648, 1e30];
+    let bits = inputs.map(|x| format!("{:08x}", tanh(x).to_bits()));
+    insta::assert_compact_debug_snapshot!(bits);
+}
