@@ -1,8 +1,6 @@
 //! One control period, written once for simulator, recording and board.
 
-use crate::activation::Activation;
-use crate::controller::{Command, Controller};
-use crate::network::Recurrence;
+use crate::controller::Command;
 use crate::observation::{Reading, ReadingError};
 use core::fmt;
 
@@ -27,6 +25,12 @@ pub trait Actuate {
     ///
     /// Whatever the hardware reports.
     fn actuate(&mut self, command: Command) -> Result<(), Self::Error>;
+}
+
+/// Something that decides: a [`Controller`](crate::controller::Controller) of any size.
+pub trait Decide {
+    /// Decides on one reading, or stops on the lack of one.
+    fn decide(&mut self, reading: Result<&Reading, ReadingError>) -> Command;
 }
 
 /// What went wrong in one control period.
@@ -56,19 +60,14 @@ impl<E: fmt::Debug + fmt::Display> core::error::Error for TickError<E> {}
 ///
 /// A bad reading is reported after the car has been told to stop, so no error leaves the
 /// previous command in force.
-pub fn tick<S, T, R, A, const H: usize, const O: usize>(
-    sensor: &mut S,
-    controller: &mut Controller<'_, R, A, H, O>,
-    actuator: &mut T,
-) -> Result<Command, TickError<T::Error>>
+#[inline]
+pub fn tick<C, D>(car: &mut C, controller: &mut D) -> Result<Command, TickError<C::Error>>
 where
-    S: Sense,
-    T: Actuate,
-    R: Recurrence,
-    A: Activation,
+    C: Sense + Actuate,
+    D: Decide + ?Sized,
 {
-    let reading = sensor.sense();
-    let command = controller.step(reading.as_ref().map_err(|error| *error));
-    actuator.actuate(command).map_err(TickError::Actuate)?;
+    let reading = car.sense();
+    let command = controller.decide(reading.as_ref().map_err(|error| *error));
+    car.actuate(command).map_err(TickError::Actuate)?;
     reading.map(|_| command).map_err(TickError::Sense)
 }

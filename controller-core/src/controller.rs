@@ -1,6 +1,7 @@
 //! One decision per control period: encode, run the network, scale, or stop.
 
 use crate::activation::Activation;
+use crate::control_loop::Decide;
 use crate::network::{Network, Recurrence, State};
 use crate::observation::{Encoding, INPUTS, Reading, ReadingError};
 use crate::units::{SteerAngle, StepLength};
@@ -83,8 +84,22 @@ impl<'a, R: Recurrence, A: Activation, const H: usize, const O: usize> Controlle
         self.good_readings_owed = 0;
     }
 
-    /// Decides on one reading, or stops on the lack of one.
-    pub fn step(&mut self, reading: Result<&Reading, ReadingError>) -> Command {
+    /// All hidden outputs of the last step that the network made.
+    pub fn state(&self) -> &State<f32, H> {
+        &self.state
+    }
+
+    /// How inputs and outputs relate to the car.
+    pub fn scaling(&self) -> &Scaling {
+        &self.scaling
+    }
+}
+
+impl<R: Recurrence, A: Activation, const H: usize, const O: usize> Decide
+    for Controller<'_, R, A, H, O>
+{
+    #[inline]
+    fn decide(&mut self, reading: Result<&Reading, ReadingError>) -> Command {
         match reading {
             Err(_) => {
                 self.good_readings_owed = RECOVERY;
@@ -101,15 +116,5 @@ impl<'a, R: Recurrence, A: Activation, const H: usize, const O: usize> Controlle
                 self.scaling.command(&outputs)
             }
         }
-    }
-
-    /// All hidden outputs of the last step that the network made.
-    pub fn state(&self) -> &State<f32, H> {
-        &self.state
-    }
-
-    /// How inputs and outputs relate to the car.
-    pub fn scaling(&self) -> &Scaling {
-        &self.scaling
     }
 }
