@@ -14,6 +14,8 @@
 //! independent of each other is what the cipher is for.
 
 mod draw;
+#[cfg(test)]
+pub(crate) mod statistics;
 
 use std::fmt;
 use std::str::FromStr;

@@ -93,6 +93,7 @@ impl Stream {
 
 #[cfg(test)]
 mod tests {
+    use super::super::statistics::{chi_square, follows};
     use super::super::{Purpose, RunSeed};
     use super::*;
 
@@ -176,12 +177,11 @@ mod tests {
     #[test]
     fn every_index_is_equally_likely() {
         let mut s = stream(3);
-        let mut counts = [0_u32; 7];
+        let mut counts = [0; 7];
         for _ in 0..70_000 {
             counts[s.index(7)] += 1;
         }
-        let chi: f64 = counts.iter().map(|&n| (f64::from(n) - 10_000.0).powi(2) / 10_000.0).sum();
-        assert!(chi < 27.86, "{counts:?}");
+        assert!(chi_square(counts) < 27.86, "{counts:?}");
     }
 
     /// Chi-square of 24 equally likely orders: 99.99 % of samples stay below 58.
@@ -192,28 +192,25 @@ mod tests {
         for _ in 0..24_000 {
             let mut items = [0, 1, 2, 3];
             s.shuffle(&mut items);
-            *counts.entry(items).or_insert(0_u32) += 1;
+            *counts.entry(items).or_insert(0) += 1;
         }
         assert_eq!(counts.len(), 24);
-        let chi: f64 = counts.values().map(|&n| (f64::from(n) - 1000.0).powi(2) / 1000.0).sum();
-        assert!(chi < 58.0, "{counts:?}");
+        assert!(chi_square(counts.values().copied()) < 58.0, "{counts:?}");
     }
 
-    /// Kolmogorov and Smirnov: 99.99 % of samples of size n stay within 2.23/√n.
     #[test]
     fn normal_draws_follow_the_error_function() {
         let mut s = stream(5);
-        let mut drawn: Vec<f64> = (0..100_000).map(|_| f64::from(s.normal())).collect();
-        drawn.sort_by(f64::total_cmp);
-        let size = drawn.len() as f64;
-        let farthest = drawn
-            .iter()
-            .enumerate()
-            .map(|(rank, &x)| {
-                let expected = 0.5 * libm::erfc(-x / std::f64::consts::SQRT_2);
-                (expected - (rank as f64 + 0.5) / size).abs()
-            })
-            .fold(0.0, f64::max);
-        assert!(farthest < 2.23 / size.sqrt(), "{farthest}");
+        let drawn = (0..100_000).map(|_| f64::from(s.normal())).collect();
+        assert!(follows(drawn, |x| 0.5 * libm::erfc(-x / std::f64::consts::SQRT_2)));
+    }
+
+    #[test]
+    fn uniform_draws_fill_their_range_evenly() {
+        let mut s = stream(6);
+        let drawn = (0..100_000).map(|_| f64::from(s.within(-2.0, 6.0))).collect();
+        assert!(follows(drawn, |x| (x + 2.0) / 8.0));
+        let fine = (0..100_000).map(|_| s.unit_f64()).collect();
+        assert!(follows(fine, |x| x));
     }
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// The paper's genetic algorithm: four groups make the next population.
 ///
-/// The shares add up to 1; sizes are rounded so that they add up to the population.
+/// The shares add up to 1; [`GaSpec::group_sizes`] makes whole numbers of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GaSpec {
     /// P1: share selected for single-point crossover.
@@ -147,8 +147,14 @@ impl Mutation {
     }
 }
 
+/// A share as written, in whole millionths: 0.4 is 400 000, although the nearest `f32` is a
+/// little more and would round up to one individual too many.
+pub(super) fn millionths(share: f32) -> u128 {
+    (f64::from(share) * 1e6).round() as u128
+}
+
 /// `Ok` when the setting fits; `NaN` never does, because every comparison with it is false.
-pub(crate) fn require(
+pub(in crate::evolve) fn require(
     fits: bool,
     setting: &'static str,
     found: impl Into<f64>,

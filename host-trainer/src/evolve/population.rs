@@ -1,0 +1,121 @@
+//! Genomes as rows of one matrix: breeding copies rows, and they lie side by side.
+
+use serde::{Deserialize, Serialize};
+
+use crate::seed::{Purpose, RunSeed};
+
+use super::SearchSpace;
+
+/// Genomes of one length, in a fixed order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
+pub struct Population {
+    genome_len: usize,
+    genes: Vec<f32>,
+}
+
+impl Population {
+    /// Genomes with all genes 0.
+    pub(super) fn zeros(space: &SearchSpace) -> Self {
+        let SearchSpace { population, genome_len, .. } = *space;
+        Self { genome_len, genes: vec![0.0; population * genome_len] }
+    }
+
+    /// Uniform random genomes; each has its own stream, so that a larger population begins
+    /// with the genomes of a smaller one.
+    pub(super) fn random(space: &SearchSpace, seed: RunSeed) -> Self {
+        let mut drawn = Self::zeros(space);
+        for (genome, index) in drawn.genes.chunks_exact_mut(space.genome_len).zip(0..) {
+            let mut stream = seed.stream(Purpose::InitialPopulation, 0, index);
+            genome.fill_with(|| stream.within(-space.bound, space.bound));
+        }
+        drawn
+    }
+
+    /// Number of genomes.
+    pub fn size(&self) -> usize {
+        self.genes.len() / self.genome_len
+    }
+
+    /// Number of genes in each genome, at least 1.
+    pub fn genome_len(&self) -> usize {
+        self.genome_len
+    }
+
+    /// One genome.
+    ///
+    /// # Panics
+    /// When `index` is not below [`Self::size`].
+    pub fn genome(&self, index: usize) -> &[f32] {
+        &self.genes[index * self.genome_len..][..self.genome_len]
+    }
+
+    /// All genomes in order.
+    pub fn genomes(&self) -> std::slice::ChunksExact<'_, f32> {
+        self.genes.chunks_exact(self.genome_len)
+    }
+
+    /// All genes, genome after genome.
+    pub fn genes(&self) -> &[f32] {
+        &self.genes
+    }
+
+    /// All genes, genome after genome, for breeding into.
+    pub(super) fn genes_mut(&mut self) -> &mut [f32] {
+        &mut self.genes
+    }
+}
+
+/// The fields as they come from a checkpoint, before anyone looked at them.
+#[derive(Deserialize)]
+struct Stored {
+    genome_len: usize,
+    genes: Vec<f32>,
+}
+
+impl TryFrom<Stored> for Population {
+    type Error = String;
+
+    fn try_from(stored: Stored) -> Result<Self, String> {
+        let Stored { genome_len, genes } = stored;
+        if genome_len == 0 || !genes.len().is_multiple_of(genome_len) {
+            let found = genes.len();
+            return Err(format!("{found} genes, expected whole genomes of {genome_len} genes"));
+        }
+        Ok(Self { genome_len, genes })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seed::statistics::follows;
+
+    const SPACE: SearchSpace = SearchSpace { population: 5, genome_len: 3, bound: 2.0 };
+
+    #[test]
+    fn a_larger_population_begins_with_the_smaller_one() {
+        let small = Population::random(&SPACE, RunSeed(7));
+        let large = Population::random(&SearchSpace { population: 9, ..SPACE }, RunSeed(7));
+        assert_eq!(large.size(), 9);
+        assert_eq!(large.genes()[..15], *small.genes());
+    }
+
+    #[test]
+    fn first_genes_fill_their_bounds_evenly() {
+        let space = SearchSpace { population: 160, genome_len: 553, bound: 2.0 };
+        let drawn = Population::random(&space, RunSeed(1));
+        let genes = drawn.genes().iter().copied().map(f64::from).collect();
+        assert!(follows(genes, |gene| (gene + 2.0) / 4.0));
+    }
+
+    #[test]
+    fn a_stored_matrix_that_is_not_whole_is_refused() {
+        for (genome_len, genes) in [(0_usize, 6_usize), (0, 0), (4, 6), (7, 6)] {
+            let bytes = postcard::to_allocvec(&(genome_len, vec![0.5_f32; genes])).unwrap();
+            assert!(postcard::from_bytes::<Population>(&bytes).is_err(), "{genome_len}, {genes}");
+        }
+        let whole = postcard::to_allocvec(&(3_usize, vec![0.5_f32; 6])).unwrap();
+        assert_eq!(postcard::from_bytes::<Population>(&whole).unwrap().size(), 2);
+    }
+}

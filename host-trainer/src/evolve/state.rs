@@ -1,0 +1,76 @@
+//! What a checkpoint keeps of a search, and why one may not fit.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::ga::GaState;
+
+/// Everything a search method needs to go on, one variant per method.
+///
+/// Checkpoints store the variant's number: add new ones at the end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum State {
+    /// Of the genetic algorithm.
+    Ga(GaState),
+}
+
+/// Why a saved state does not belong to this search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RestoreError {
+    /// Saved under another seed.
+    Seed {
+        /// The state's seed.
+        found: u64,
+        /// This search's seed.
+        expected: u64,
+    },
+    /// Another number of genomes.
+    Population {
+        /// In the state.
+        found: usize,
+        /// In this search.
+        expected: usize,
+    },
+    /// Genomes of another length.
+    GenomeLen {
+        /// In the state.
+        found: usize,
+        /// In this search.
+        expected: usize,
+    },
+    /// A gene outside the bounds, or `NaN`.
+    Gene {
+        /// Which genome.
+        individual: usize,
+        /// Which of its genes.
+        gene: usize,
+        /// Its value.
+        found: f32,
+        /// Largest magnitude in this search.
+        bound: f32,
+    },
+}
+
+impl fmt::Display for RestoreError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Seed { found, expected } => {
+                write!(f, "the saved search has seed {found}, expected {expected}")
+            }
+            Self::Population { found, expected } => {
+                write!(f, "the saved search has a population of {found}, expected {expected}")
+            }
+            Self::GenomeLen { found, expected } => {
+                write!(f, "the saved search has {found} genes per genome, expected {expected}")
+            }
+            Self::Gene { individual, gene, found, bound } => write!(
+                f,
+                "gene {gene} of saved genome {individual} is {found}, expected at most the \
+                 bound {bound} in magnitude"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for RestoreError {}
