@@ -2,4 +2,5 @@
 
 pub mod evolve;
 pub mod failure;
+pub mod files;
 pub mod seed;
