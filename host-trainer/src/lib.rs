@@ -4,3 +4,7 @@ pub mod evolve;
 pub mod failure;
 pub mod files;
 pub mod seed;
+pub mod signals;
+
+#[cfg(test)]
+mod test_process;
