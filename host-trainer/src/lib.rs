@@ -1,8 +1,10 @@
 //! Simulate, evolve, export: the host half of evosteer.
 
+pub mod checkpoint;
 pub mod evolve;
 pub mod failure;
 pub mod files;
+pub mod run_folder;
 pub mod seed;
 pub mod signals;
 
