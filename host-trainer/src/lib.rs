@@ -6,6 +6,7 @@ pub mod failure;
 pub mod files;
 pub mod output;
 pub mod run_folder;
+pub mod scenario;
 pub mod seed;
 pub mod signals;
 

@@ -1,16 +1,19 @@
 //! Everything a run depends on, checked and in SI units: the world, the car, its sensors,
 //! the network's shape, how an episode goes, what it costs, and how evolution searches.
 //!
-//! A [`Scenario`] is always valid. What a person types (TOML, `--set`, `--preset`) is a
-//! different type, in [`file`]; turning one into the other is the only place that refuses.
+//! A [`Scenario`] is always valid. What a person types (TOML, `--set`, `--preset`) is text;
+//! turning it into a scenario is the only place that refuses.
 //! Lengths are metres, angles radians, counter-clockwise positive (the ROS convention).
+
+mod preset;
 
 use controller_core::activation::ActivationKind;
 use controller_core::network::RecurrenceKind;
-use controller_core::observation::{BeamMount, Encoding, BEAMS};
+use controller_core::observation::{BEAMS, BeamMount, Encoding};
 use serde::{Deserialize, Serialize};
 
 pub use crate::evolve::ga::{GaSpec, Mutation, Selection};
+pub use preset::Preset;
 
 /// A complete, valid description of what to train or judge a controller on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
