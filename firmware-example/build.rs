@@ -1,0 +1,38 @@
+//! Gives the linker the memory map of the chosen board; does nothing on a host.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+/// Feature prefix that cargo turns into an environment variable per chosen board.
+const FEATURE: &str = "CARGO_FEATURE_BOARD_";
+
+fn main() {
+    println!("cargo::rerun-if-changed=boards");
+    let chosen: Vec<String> = env::vars()
+        .filter_map(|(name, _)| Some(name.strip_prefix(FEATURE)?.to_lowercase().replace('_', "-")))
+        .collect();
+    let on_a_board = env::var("CARGO_CFG_TARGET_OS").is_ok_and(|system| system == "none");
+    let result = match (on_a_board, chosen.as_slice()) {
+        (false, []) => Ok(()),
+        (false, [board, ..]) => {
+            Err(format!("{board} cannot be built for a host; use: cargo xtask build {board}"))
+        }
+        (true, []) => Err("no board chosen; use: cargo xtask build <BOARD>".to_owned()),
+        (true, [board]) => link(board),
+        (true, several) => Err(format!("one board at a time, found: {}", several.join(", "))),
+    };
+    if let Err(message) = result {
+        println!("cargo::error={message}");
+    }
+}
+
+fn link(board: &str) -> Result<(), String> {
+    let map = Path::new("boards").join(board).join("memory.x");
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    fs::copy(&map, out.join("memory.x")).map_err(|error| format!("{}: {error}", map.display()))?;
+    println!("cargo::rustc-link-search={}", out.display());
+    for argument in ["--nmagic", "-Tlink.x", "-Tdefmt.x"] {
+        println!("cargo::rustc-link-arg-bins={argument}");
+    }
+    Ok(())
+}

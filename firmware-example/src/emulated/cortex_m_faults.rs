@@ -1,0 +1,23 @@
+//! Faults of a Cortex-M: reported, then the run ends with failure.
+#![expect(
+    unsafe_code,
+    reason = "cortex-m-rt wants its handlers declared unsafe; they do nothing unsafe"
+)]
+
+use cortex_m_rt::{ExceptionFrame, exception};
+
+#[exception]
+unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
+    defmt::error!(
+        "hard fault at pc {=u32:#010x}, called from {=u32:#010x}",
+        frame.pc(),
+        frame.lr()
+    );
+    super::fail()
+}
+
+#[exception]
+unsafe fn DefaultHandler(interrupt: i16) -> ! {
+    defmt::error!("interrupt {=i16} has no handler", interrupt);
+    super::fail()
+}

@@ -1,0 +1,34 @@
+//! Builds the boards' programs.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::boards::{self, Board};
+use crate::failure::Failure;
+use crate::options::{Options, TargetSource};
+use crate::process;
+use crate::targets::Toolchain;
+
+/// `cargo xtask build`: the only lines on standard output are the programs' paths.
+pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+    for board in boards::chosen(options)? {
+        println!("{}", build(board, options.targets)?.display());
+    }
+    Ok(())
+}
+
+/// Builds one board and returns its program.
+pub(crate) fn build(board: &Board, source: TargetSource) -> Result<PathBuf, Failure> {
+    let toolchain = Toolchain::find(source, board.triple)?;
+    process::run(&mut command("build", board, toolchain))?;
+    let folder = toolchain.target_dir().join(board.triple).join("firmware");
+    Ok(folder.join(board.name))
+}
+
+/// `cargo <verb>` for one board's program.
+pub(crate) fn command(verb: &str, board: &Board, toolchain: Toolchain) -> Command {
+    let mut command = toolchain.cargo(verb, board.triple);
+    command.args(["--quiet", "--profile", "firmware", "--package", "firmware-example"]);
+    command.args(["--features", &board.feature(), "--bin", board.name]);
+    command
+}

@@ -1,0 +1,42 @@
+//! Formatting, clippy and documentation, for the host and for every board.
+
+use crate::boards;
+use crate::failure::Failure;
+use crate::firmware;
+use crate::options::Options;
+use crate::process;
+use crate::targets::Toolchain;
+
+/// `cargo xtask lint`.
+pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+    process::run(process::cargo().args(["fmt", "--all", "--check"]))?;
+    process::run(process::cargo().args([
+        "clippy",
+        "--quiet",
+        "--workspace",
+        "--all-targets",
+        "--",
+        "-D",
+        "warnings",
+    ]))?;
+    process::run(process::cargo().args([
+        "clippy",
+        "--quiet",
+        "--package",
+        "xtask",
+        "--features",
+        "decode",
+        "--",
+        "-D",
+        "warnings",
+    ]))?;
+    for board in boards::ALL {
+        let toolchain = Toolchain::find(options.targets, board.triple)?;
+        process::run(firmware::command("clippy", board, toolchain).args(["--", "-D", "warnings"]))?;
+    }
+    process::run(
+        process::cargo()
+            .args(["doc", "--quiet", "--workspace", "--no-deps"])
+            .env("RUSTDOCFLAGS", "-D warnings"),
+    )
+}

@@ -1,0 +1,67 @@
+//! Runs a board's program in QEMU: log decoded, exit code passed on, never longer than its time.
+
+#[cfg(feature = "decode")]
+mod decode;
+#[cfg(feature = "decode")]
+mod emulate;
+
+use std::path::Path;
+
+use crate::boards::{self, Board};
+use crate::failure::Failure;
+use crate::options::Options;
+use crate::tools;
+
+/// `cargo xtask qemu ELF`, also cargo's runner for the boards.
+pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+    let [elf] = options.operands.as_slice() else {
+        return Err(Failure::usage("qemu: expected one program to run: cargo xtask qemu ELF"));
+    };
+    let elf = Path::new(elf);
+    let board = match &options.board {
+        Some(name) => boards::named(name)?,
+        None => boards::of_program(elf)?,
+    };
+    if !elf.is_file() {
+        return Err(Failure::usage(format!("no program at {}", elf.display())));
+    }
+    tools::need_emulator(board)?;
+    emulate(board, elf, options)
+}
+
+#[cfg(feature = "decode")]
+fn emulate(board: &Board, elf: &Path, options: &Options) -> Result<(), Failure> {
+    emulate::run(board, elf, options.timeout)
+}
+
+/// Hands over to an xtask built with the log decoder; this one goes without, to be quick to build.
+#[cfg(not(feature = "decode"))]
+fn emulate(board: &Board, elf: &Path, options: &Options) -> Result<(), Failure> {
+    let status = decoder("run")
+        .args(["--", "qemu", "--board", board.name, "--timeout"])
+        .arg(options.timeout.as_secs().to_string())
+        .arg(std::path::absolute(elf).unwrap_or_else(|_| elf.to_owned()))
+        .status()
+        .map_err(|error| Failure::failed(format!("cannot start cargo: {error}")))?;
+    match status.code() {
+        Some(0) => Ok(()),
+        // It has said why.
+        Some(code) => std::process::exit(code),
+        None => Err(Failure::failed(format!("the runner ended with {status}"))),
+    }
+}
+
+/// `cargo <verb>` for the xtask that has the log decoder, in a profile made for building it fast.
+pub(crate) fn decoder(verb: &str) -> std::process::Command {
+    let mut command = crate::process::cargo();
+    command.arg(verb).args([
+        "--quiet",
+        "--profile",
+        "tools",
+        "--package",
+        "xtask",
+        "--features",
+        "decode",
+    ]);
+    command
+}
