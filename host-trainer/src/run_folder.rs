@@ -29,7 +29,7 @@ use crate::files;
 #[derive(Debug)]
 pub struct RunFolder {
     path: PathBuf,
-    _lock: File,
+    lock: File,
 }
 
 impl RunFolder {
@@ -191,7 +191,15 @@ impl RunFolder {
             files::remove_strays(&plots)?;
         }
         files::check_writable(path)?;
-        Ok(Self { path: path.to_owned(), _lock: lock })
+        Ok(Self { path: path.to_owned(), lock })
+    }
+}
+
+impl Drop for RunFolder {
+    /// Closing the file would free the lock too, but not while a child process that another
+    /// thread is just starting still has its copy of it.
+    fn drop(&mut self) {
+        let _ = self.lock.unlock();
     }
 }
 
