@@ -29,7 +29,8 @@ impl Progress {
         let display = if Output::is_interactive() {
             let bar =
                 ProgressBar::with_draw_target(Some(u64::from(total)), ProgressDrawTarget::stderr());
-            let style = ProgressStyle::with_template("{bar:24} {pos}/{len} eta {eta}  {msg}");
+            // wide_msg is cut to the terminal's width; a line that wraps would tear.
+            let style = ProgressStyle::with_template("{bar:16} {pos}/{len} eta {eta}  {wide_msg}");
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar.set_position(u64::from(done));
             bar.reset_eta();
@@ -48,7 +49,7 @@ impl Progress {
         let done = row.generation.saturating_add(1);
         match &mut self.display {
             Display::Bar(bar) => {
-                bar.set_message(summary(row, steps_per_second));
+                bar.set_message(brief(row, steps_per_second));
                 bar.set_position(u64::from(done));
             }
             Display::Lines { last } => {
@@ -81,12 +82,16 @@ impl Progress {
     }
 }
 
-/// One generation in a line.
+/// One generation in a line of a log.
 fn summary(row: &MetricsRow, steps_per_second: f64) -> String {
+    format!("mean {:.1}  {}", row.mean, brief(row, steps_per_second))
+}
+
+/// One generation beside a bar, where 80 columns are all there is.
+fn brief(row: &MetricsRow, steps_per_second: f64) -> String {
     format!(
-        "best {:.1}  mean {:.1}  reached {:.0} %  {} steps/s",
+        "best {:.1}  reached {:.0} %  {} steps/s",
         row.best,
-        row.mean,
         100.0 * row.reached,
         with_prefix(steps_per_second)
     )

@@ -35,7 +35,7 @@ fn a_quick_run_prints_its_first_its_last_and_every_tenth_part() {
     let printed = lines(0, 65);
     assert_eq!(
         printed[0],
-        "generation 1/65  best -23456.7  mean 812.0  reached 100 %  1.23 M steps/s"
+        "generation 1/65  mean 812.0  best -23456.7  reached 100 %  1.23 M steps/s"
     );
     let numbers: Vec<&str> =
         printed.iter().map(|line| line["generation ".len()..].split('/').next().unwrap()).collect();
