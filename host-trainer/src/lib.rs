@@ -4,6 +4,7 @@ pub mod checkpoint;
 pub mod evolve;
 pub mod failure;
 pub mod files;
+pub mod map;
 pub mod output;
 pub mod run_folder;
 pub mod scenario;
