@@ -90,11 +90,15 @@ fn open(path: &Path, missing: MapProblem, place: Place, blamed: &Path) -> Result
     match std::fs::metadata(path) {
         Ok(about) if about.is_file() => File::open(path).map_err(unread),
         Ok(_) => Err(MapProblem::NotAFile.at(path, Place::File)),
-        Err(cause) if matches!(cause.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
-            Err(missing.at(blamed, place))
-        }
+        Err(cause) if names_nothing(cause.kind()) => Err(missing.at(blamed, place)),
         Err(cause) => Err(unread(cause)),
     }
+}
+
+/// Whether there is no file of that name, be it that no file could have it.
+fn names_nothing(kind: ErrorKind) -> bool {
+    use ErrorKind::{InvalidFilename, InvalidInput, NotADirectory, NotFound};
+    matches!(kind, NotFound | NotADirectory | InvalidFilename | InvalidInput)
 }
 
 /// Reads an image of either format, told apart by its first bytes and not by its name.

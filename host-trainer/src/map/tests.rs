@@ -234,6 +234,20 @@ fn yaml_refusals_name_the_place_what_was_found_and_what_was_expected() {
 }
 
 #[test]
+fn deep_or_multiplying_yaml_is_refused_within_bounds() {
+    let deep = format!("{YAML}x: {}", "[".repeat(100_000));
+    let mut multiplying = format!("{YAML}a: &a [1, 1, 1, 1, 1, 1, 1, 1]\n");
+    for (from, to) in "abcdefgh".chars().zip("bcdefghi".chars()) {
+        let copies = vec![format!("*{from}"); 8].join(", ");
+        multiplying += &format!("{to}: &{to} [{copies}]\n");
+    }
+    for yaml in [deep, multiplying] {
+        let error = Description::parse(yaml.as_bytes(), Path::new("map.yaml")).unwrap_err();
+        assert!(matches!(error.problem, MapProblem::Yaml(_)), "{error}");
+    }
+}
+
+#[test]
 fn a_missing_key_is_refused_with_its_misspelling_or_with_the_list_of_keys() {
     let message = |yaml: &str| loaded(yaml, Some(b"P2 1 1 255 0")).unwrap_err().0;
     assert_eq!(
@@ -259,6 +273,12 @@ fn a_missing_or_foreign_image_is_bad_input_and_names_the_place_in_the_yaml() {
     let (message, kind) = loaded(YAML, None).unwrap_err();
     assert_eq!(message, "…/map.yaml:1:8: image: there is no file …/map.pgm (relative to the YAML)");
     assert_eq!(kind, FailureKind::BadInput);
+    // No file can have these names.
+    for name in [r#""a\0b.pgm""#, &"x".repeat(5000)] {
+        let (message, kind) = loaded(&YAML.replace("map.pgm", name), None).unwrap_err();
+        assert!(message.starts_with("…/map.yaml:1:8: image: there is no file "), "{message}");
+        assert_eq!(kind, FailureKind::BadInput);
+    }
     let (message, kind) = loaded(&YAML.replace("map.pgm", "."), None).unwrap_err();
     assert_eq!((message.as_str(), kind), ("…/.: not a regular file", FailureKind::BadInput));
     for (image, found) in [
