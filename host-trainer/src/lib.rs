@@ -1,5 +1,6 @@
 //! Simulate, evolve, export: the host half of evosteer.
 
+pub mod blob_file;
 pub mod checkpoint;
 pub mod evolve;
 pub mod failure;
@@ -11,5 +12,7 @@ pub mod scenario;
 pub mod seed;
 pub mod signals;
 
+#[cfg(test)]
+mod sample_blob;
 #[cfg(test)]
 mod test_process;
