@@ -65,6 +65,7 @@ pub struct Controller<'a, R: Recurrence, A, const H: usize, const O: usize> {
     activation: A,
     scaling: Scaling,
     state: State<f32, H>,
+    outputs: [f32; O],
     good_readings_owed: u32,
 }
 
@@ -75,18 +76,31 @@ impl<'a, R: Recurrence, A: Activation, const H: usize, const O: usize> Controlle
         activation: A,
         scaling: Scaling,
     ) -> Self {
-        Self { network, activation, scaling, state: State::reset(), good_readings_owed: 0 }
+        Self {
+            network,
+            activation,
+            scaling,
+            state: State::reset(),
+            outputs: [0.0; O],
+            good_readings_owed: 0,
+        }
     }
 
     /// Forgets everything: the start of another drive.
     pub fn reset(&mut self) {
         self.state = State::reset();
+        self.outputs = [0.0; O];
         self.good_readings_owed = 0;
     }
 
     /// All hidden outputs of the last step that the network made.
     pub fn state(&self) -> &State<f32, H> {
         &self.state
+    }
+
+    /// The network's outputs in the last step that it made, before scaling.
+    pub fn outputs(&self) -> &[f32; O] {
+        &self.outputs
     }
 
     /// How inputs and outputs relate to the car.
@@ -112,8 +126,8 @@ impl<R: Recurrence, A: Activation, const H: usize, const O: usize> Decide
             Ok(reading) => {
                 self.good_readings_owed = 0;
                 let inputs = self.scaling.encoding.inputs(&reading.sight(), self.scaling.range);
-                let outputs = self.network.step(self.activation, &mut self.state, &inputs);
-                self.scaling.command(&outputs)
+                self.outputs = self.network.step(self.activation, &mut self.state, &inputs);
+                self.scaling.command(&self.outputs)
             }
         }
     }

@@ -14,6 +14,7 @@
 //! | [`control_loop`] | one control period, with its faults | no error leaves an old command in force |
 //! | [`actuator`] | servo rate and dead time | shared by simulator and car |
 //! | [`blob`] | trained weights as bytes | any input decodes or is refused with a cause |
+//! | [`recording`] | a drive as words | replayed anywhere, the first differing bit has a name |
 //! | [`motion`], [`geometry`], [`trig`] | the kinematic bicycle, beams, contacts | shared by simulator and closed-loop proofs |
 //! | [`lane`] | the number type of all arithmetic | a lane of a wide run equals the scalar run |
 //!
@@ -46,5 +47,6 @@ pub mod lane;
 pub mod motion;
 pub mod network;
 pub mod observation;
+pub mod recording;
 pub mod trig;
 pub mod units;
