@@ -1,8 +1,16 @@
 //! The driving program of a car-like robot, and the boards it runs on.
 //!
-//! Everything that decides is in the library, builds without the standard library and is tested on the host;
-//! a board's binary under `src/bin` is wiring only.
+//! Everything that decides is in the library, builds without the standard library and is tested on the
+//! host; a board's binary under `src/bin` is wiring only.
+//!
+//! | look in | for |
+//! | --- | --- |
+//! | [`replay`] | running recorded drives again and comparing bits |
+//! | [`recorded`] | the drives that every emulated board replays |
+//! | `emulated` (on a board only) | how such a board logs, panics and ends |
 #![cfg_attr(not(test), no_std)]
 
 #[cfg(all(target_os = "none", feature = "emulated"))]
 pub mod emulated;
+pub mod recorded;
+pub mod replay;

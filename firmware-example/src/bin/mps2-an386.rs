@@ -1,12 +1,10 @@
-//! QEMU `mps2-an386`: a Cortex-M4F.
+//! QEMU `mps2-an386`: a Cortex-M4F that replays the recorded drives.
 #![no_std]
 #![no_main]
 
-use cortex_m as _;
 use firmware_example::emulated;
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    defmt::info!("hello");
-    emulated::succeed()
+    emulated::run()
 }

@@ -1,0 +1,104 @@
+//! One drive, from weights to the bytes of its blob and its recording.
+
+use controller_core::activation::Activation;
+use controller_core::blob::{self, Blob, Header};
+use controller_core::control_loop::Decide;
+use controller_core::controller::Controller;
+use controller_core::motion::Pose;
+use controller_core::network::{Network, Recurrence, State};
+use controller_core::observation::{BEAMS, Echo, INPUTS, Reading};
+use controller_core::recording;
+use firmware_example::replay::{HIDDEN, OUTPUTS};
+
+use crate::room;
+
+/// Steps of a drive.
+pub const STEPS: u32 = 200;
+
+/// Steps after which the car is put elsewhere, so that a circling one still sees the room.
+const STEPS_PER_START: u32 = 40;
+
+/// Where the car is put in turn: metres, metres, radians.
+const STARTS: [(f32, f32, f32); 5] =
+    [(1.0, 1.0, 0.8), (8.5, 8.5, -2.4), (1.0, 8.0, -0.3), (8.5, 2.0, 2.0), (4.2, 4.8, 1.5)];
+
+/// A drive as bytes, words first so that they can be read in place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Recorded {
+    /// The weight blob, as words.
+    pub blob: Vec<u32>,
+    /// The recording, as words.
+    pub recording: Vec<u32>,
+}
+
+impl Recorded {
+    /// The weight blob's bytes.
+    pub fn blob(&self) -> &[u8] {
+        bytemuck::cast_slice(&self.blob)
+    }
+
+    /// The recording's bytes.
+    pub fn recording(&self) -> &[u8] {
+        bytemuck::cast_slice(&self.recording)
+    }
+}
+
+/// Drives [`STEPS`] steps, faults of the sensors included, and writes everything down.
+///
+/// `self_tests` are inputs with both hidden layers before the step.
+///
+/// # Panics
+///
+/// If the header does not describe these weights: the cases are fixed, so a test fails.
+pub fn record<R: Recurrence>(
+    header: &Header,
+    activation: impl Activation,
+    weights: &[f32],
+    self_tests: &[([f32; INPUTS], State<f32, HIDDEN>)],
+) -> Recorded {
+    let network = Network::<R, f32, INPUTS, HIDDEN, OUTPUTS>::new(weights, header.topology.biases)
+        .expect("weights fit the network");
+    let mut triples = Vec::new();
+    for (inputs, state) in self_tests {
+        triples.extend(inputs.iter().chain(&state.first).chain(&state.second));
+        triples.extend(network.step(activation, &mut state.clone(), inputs));
+    }
+    let mut blob = vec![0u32; header.blob_len() / 4];
+    blob::encode(header, weights, &triples, bytemuck::cast_slice_mut(&mut blob))
+        .expect("a valid blob");
+    let check =
+        Blob::parse(bytemuck::cast_slice(&blob)).expect("what was written can be read").check();
+
+    let mut controller = Controller::new(network, activation, header.scaling);
+    let mut words = recording::header::<HIDDEN, OUTPUTS>(STEPS, check).to_vec();
+    let mut pose = Pose::new(0.0, 0.0, 0.0);
+    for step in 0..STEPS {
+        if step.is_multiple_of(STEPS_PER_START) {
+            let (x, y, heading) = STARTS[(step / STEPS_PER_START) as usize % STARTS.len()];
+            pose = Pose::new(x, y, heading);
+        }
+        let (echoes, age) = with_faults(step, room::look(&pose));
+        let reading = Reading::new(echoes, age, header.scaling.range);
+        let command = controller.decide(reading.as_ref().map_err(|error| *error));
+        words.extend(recording::sensed(&echoes, age));
+        words.extend(recording::values(command, controller.outputs(), controller.state()));
+        pose = room::drive(&pose, command.steer.radians(), command.step.metres());
+    }
+    words.extend(recording::check(&words));
+    Recorded { blob, recording: words }
+}
+
+/// Every kind of bad reading once, and readings of every age that is still good.
+fn with_faults(step: u32, mut echoes: [Option<Echo>; BEAMS]) -> ([Option<Echo>; BEAMS], u32) {
+    let mut age = 0;
+    match step {
+        20 | 21 => echoes[2] = None,
+        50 => echoes[0] = Some(Echo::Wall(f32::NAN)),
+        70 => echoes[4] = Some(Echo::Target(room::RANGE + 0.001)),
+        90 => echoes[1] = Some(Echo::Wall(-0.1)),
+        110 => age = 4,
+        130..133 => age = step - 129,
+        _ => {}
+    }
+    (echoes, age)
+}

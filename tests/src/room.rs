@@ -1,0 +1,76 @@
+//! A room with boxes and a target, and a car with five beams in it.
+
+use controller_core::geometry::{Body, Disc, Ray, Segment};
+use controller_core::motion::Pose;
+use controller_core::observation::{BEAMS, BeamMount, Echo};
+use controller_core::trig::sin_cos;
+
+/// Longest distance a beam reports, metres; short enough that some beams see nothing.
+pub const RANGE: f32 = 4.0;
+
+/// Wheelbase of the car, metres.
+pub const WHEELBASE: f32 = 0.3;
+
+/// The car's body: 0.40 m long, 0.20 m wide, the front axle 0.05 m behind the bumper.
+const BODY: Body<f32> = Body { rear: -0.35, front: 0.05, half_width: 0.1 };
+
+/// The room's walls, then its boxes, each `x0 y0 x1 y1` in metres.
+const RECTANGLES: [[f32; 4]; 4] =
+    [[0.0, 0.0, 10.0, 10.0], [2.0, 2.0, 3.0, 4.0], [5.0, 1.0, 6.0, 3.0], [7.0, 5.0, 9.0, 6.0]];
+
+const TARGET: Disc<f32> = Disc { centre: (4.0, 7.0), radius: 0.4 };
+
+/// The fan of beams: −30 to +30°, rightmost first.
+pub fn mounts() -> [BeamMount; BEAMS] {
+    [-30.0f32, -15.0, 0.0, 15.0, 30.0].map(|degrees| BeamMount {
+        x: 0.0,
+        y: 0.0,
+        angle: degrees.to_radians(),
+    })
+}
+
+/// What the beams report at this pose.
+pub fn look(pose: &Pose<f32>) -> [Option<Echo>; BEAMS] {
+    mounts().map(|mount| {
+        let (sin, cos) = sin_cos(pose.heading + mount.angle);
+        let ray = Ray { origin: pose.to_world(mount.x, mount.y), direction: (cos, sin) };
+        let wall = walls().map(|wall| ray.to_segment(&wall)).fold(f32::INFINITY, f32::min);
+        let target = ray.to_disc(&TARGET);
+        Some(match (wall, target) {
+            _ if wall.min(target) > RANGE => Echo::Nothing,
+            _ if target < wall => Echo::Target(target),
+            _ => Echo::Wall(wall),
+        })
+    })
+}
+
+/// Where the car is after one step; a blocked car turns but does not move.
+pub fn drive(pose: &Pose<f32>, steer: f32, step: f32) -> Pose<f32> {
+    let next = pose.driven(steer, step, WHEELBASE);
+    if walls().any(|wall| BODY.touches_segment(&next, &wall)) { next.held_at(pose) } else { next }
+}
+
+fn walls() -> impl Iterator<Item = Segment<f32>> {
+    RECTANGLES.into_iter().flat_map(|[x0, y0, x1, y1]| {
+        let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)];
+        [0, 1, 2, 3].map(|side| Segment { a: corners[side], b: corners[(side + 1) % 4] })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_fan_sees_the_wall_ahead_the_target_and_free_space() {
+        // 1 m from the east wall: cos 30° and cos 15° stretch the outer beams.
+        let facing_a_wall = look(&Pose::new(9.0, 8.0, 0.0));
+        let expected = [1.1547, 1.0353, 1.0, 1.0353, 1.1547];
+        for (echo, expected) in facing_a_wall.iter().zip(expected) {
+            assert!(matches!(echo, Some(Echo::Wall(d)) if (d - expected).abs() < 1e-3), "{echo:?}");
+        }
+        let facing_the_target = look(&Pose::new(2.0, 7.0, 0.0));
+        assert!(matches!(facing_the_target[2], Some(Echo::Target(d)) if (d - 1.6).abs() < 1e-3));
+        assert_eq!(look(&Pose::new(1.0, 5.0, 0.0))[2], Some(Echo::Nothing));
+    }
+}
