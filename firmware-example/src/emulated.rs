@@ -1,7 +1,7 @@
 //! How a program on a board that QEMU stands in for logs, panics and ends; and the program itself.
 
 #[cfg(feature = "cortex-m")]
-mod cortex_m_faults;
+mod cortex_m_support;
 
 use crate::{recorded, replay};
 // Linked for its global logger: defmt frames leave through semihosting.

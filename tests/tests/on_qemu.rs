@@ -1,1 +1,149 @@
-fn main() {}
+//! The boards in QEMU: the recorded drives bit for bit, and every way to notice that they are not.
+
+#[path = "on_qemu/program.rs"]
+mod program;
+
+use std::process::ExitCode;
+
+use controller_core::recording;
+use equivalence_tests::harness::{self, Test, Trouble};
+use firmware_example::recorded;
+use program::{Outcome, Program};
+
+/// The board that the tests with changed programs run on.
+const BOARD: &str = "mps2-an386";
+
+/// Words before the first step, and of what was sensed in a step.
+const VALUES_OF_FIRST_STEP: usize = recording::HEADER_WORDS + recording::SENSED_WORDS;
+
+/// Words of a step with hidden layers of 12 and one output.
+const STEP: usize = recording::step_words(12, 1);
+
+fn main() -> ExitCode {
+    let tests: &[Test] = &[
+        ("every_board_replays_every_recorded_drive_bit_for_bit", replays),
+        (
+            "a_bit_changed_in_an_expected_value_is_reported_with_step_neuron_and_both_values",
+            changed_value,
+        ),
+        ("a_bit_changed_anywhere_in_a_recording_ends_the_run_with_failure", damaged_recording),
+        ("the_lowest_bit_of_a_weight_changes_the_bits_of_the_drive", changed_weight),
+        ("a_panic_ends_the_run_with_failure", panics),
+        ("a_fault_ends_the_run_with_failure", faults),
+        ("a_program_that_hangs_is_stopped_and_said_so", hangs),
+    ];
+    harness::main(tests)
+}
+
+fn replays() -> Result<(), Trouble> {
+    for board in boards() {
+        let outcome = Program::build(&board, None)?.run()?;
+        outcome.expect(0)?;
+        for drive in recorded::all() {
+            outcome.expect_text(&format!("{}: 200 steps, every bit as recorded", drive.name))?;
+        }
+    }
+    Ok(())
+}
+
+fn changed_value() -> Result<(), Trouble> {
+    let program = Program::build(BOARD, None)?;
+    let drive = recorded::all()[2];
+    let places = [
+        (0, "steer angle"),
+        (1, "step length"),
+        (2, "output neuron 0"),
+        (3 + 5, "neuron 5 of the first hidden layer"),
+        (3 + 12 + 11, "neuron 11 of the second hidden layer"),
+    ];
+    for (step, (value, place)) in places.into_iter().enumerate() {
+        let mut words = words(drive.recording);
+        let index = VALUES_OF_FIRST_STEP + step * STEP + value;
+        let computed = words[index];
+        words[index] ^= 1;
+        repair(&mut words);
+        let expected = format!(
+            "{}: step {step}: {place}: {computed:08x} computed, {:08x} recorded",
+            drive.name, words[index]
+        );
+        let outcome = program.with(drive.recording, &bytes(&words))?.run()?;
+        outcome.expect(1)?;
+        outcome.expect_text(&expected)?;
+    }
+    Ok(())
+}
+
+fn damaged_recording() -> Result<(), Trouble> {
+    let program = Program::build(BOARD, None)?;
+    for (drive, bit) in
+        recorded::all().into_iter().zip([3, 8 * 100 + 5, 8 * 15_000, 8 * 30_439 + 7])
+    {
+        let mut damaged = drive.recording.to_vec();
+        damaged[bit / 8] ^= 1 << (bit % 8);
+        let outcome = program.with(drive.recording, &damaged)?.run()?;
+        outcome.expect(1)?;
+        outcome.expect_text(&format!("{}: recording refused", drive.name))?;
+    }
+    Ok(())
+}
+
+fn changed_weight() -> Result<(), Trouble> {
+    let program = Program::build(BOARD, None)?;
+    for drive in recorded::all() {
+        let mut blob = words(drive.blob);
+        blob[controller_core::blob::HEADER_BYTES / 4] ^= 1;
+        repair(&mut blob);
+        // The recording has to name the changed blob, or it would be refused before the first step.
+        let mut recorded = words(drive.recording);
+        recorded[6..8].copy_from_slice(&blob[blob.len() - 2..]);
+        repair(&mut recorded);
+        let changed =
+            program.with(drive.blob, &bytes(&blob))?.with(drive.recording, &bytes(&recorded))?;
+        let outcome = changed.run()?;
+        outcome.expect(1)?;
+        // The blob's own self-test may notice first; either names the first differing bits.
+        outcome.expect_text("computed")?;
+        outcome.expect_text(drive.name)?;
+    }
+    Ok(())
+}
+
+fn panics() -> Result<(), Trouble> {
+    let outcome = Program::build(BOARD, Some("panic"))?.run()?;
+    outcome.expect(1)?;
+    outcome.expect_text("on purpose")
+}
+
+fn faults() -> Result<(), Trouble> {
+    let outcome = Program::build(BOARD, Some("fault"))?.run()?;
+    outcome.expect(1)?;
+    outcome.expect_text("hard fault at pc")
+}
+
+fn hangs() -> Result<(), Trouble> {
+    let outcome: Outcome = Program::build(BOARD, Some("hang"))?.run_for(2)?;
+    outcome.expect(124)?;
+    outcome.expect_text("did not end within 2 s")
+}
+
+/// Every folder under `firmware-example/boards`.
+fn boards() -> Vec<String> {
+    std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../firmware-example/boards"))
+        .expect("boards/")
+        .map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned())
+        .collect()
+}
+
+fn words(bytes: &[u8]) -> Vec<u32> {
+    bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect()
+}
+
+fn bytes(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+/// Makes the check at the end match again; blob and recording use the same one.
+fn repair(words: &mut [u32]) {
+    let (body, check) = words.split_last_chunk_mut::<2>().expect("long enough");
+    *check = recording::check(body);
+}

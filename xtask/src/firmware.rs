@@ -5,22 +5,26 @@ use std::process::Command;
 
 use crate::boards::{self, Board};
 use crate::failure::Failure;
-use crate::options::{Options, TargetSource};
+use crate::options::Options;
 use crate::process;
 use crate::targets::Toolchain;
 
 /// `cargo xtask build`: the only lines on standard output are the programs' paths.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     for board in boards::chosen(options)? {
-        println!("{}", build(board, options.targets)?.display());
+        println!("{}", build(board, options)?.display());
     }
     Ok(())
 }
 
 /// Builds one board and returns its program.
-pub(crate) fn build(board: &Board, source: TargetSource) -> Result<PathBuf, Failure> {
-    let toolchain = Toolchain::find(source, board.triple)?;
-    process::run(&mut command("build", board, toolchain))?;
+pub(crate) fn build(board: &Board, options: &Options) -> Result<PathBuf, Failure> {
+    let toolchain = Toolchain::find(options.targets, board.triple)?;
+    let mut command = command("build", board, toolchain);
+    if let Some(sabotage) = &options.sabotage {
+        command.args(["--features", &format!("sabotage-{sabotage}")]);
+    }
+    process::run(&mut command)?;
     let folder = toolchain.target_dir().join(board.triple).join("firmware");
     Ok(folder.join(board.name))
 }

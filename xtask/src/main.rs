@@ -63,7 +63,7 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "build",
-        arguments: "[BOARD]…",
+        arguments: "[BOARD]… [--sabotage panic|fault|hang]",
         summary: "builds the boards and prints the path of each program",
         run: firmware::run,
     },

@@ -44,9 +44,14 @@ pub(crate) struct Options {
     pub(crate) targets: TargetSource,
     /// `--board`: which board a program is for, where its file name does not say so.
     pub(crate) board: Option<String>,
+    /// `--sabotage`: build a program that has to fail, in this way.
+    pub(crate) sabotage: Option<String>,
     /// `--timeout`: wall-clock time a board may take, 60 s unless said otherwise.
     pub(crate) timeout: Duration,
 }
+
+/// Every option; each takes a value.
+const VALUED: [&str; 4] = ["targets", "board", "sabotage", "timeout"];
 
 impl Options {
     /// Reads the words after `cargo xtask`.
@@ -56,8 +61,8 @@ impl Options {
             Err(_) => TargetSource::Auto,
         };
         let timeout = Duration::from_secs(60);
-        let mut options =
-            Self { command: None, operands: Vec::new(), targets, board: None, timeout };
+        let (command, operands, board, sabotage) = (None, Vec::new(), None, None);
+        let mut options = Self { command, operands, targets, board, sabotage, timeout };
         let mut words = arguments.into_iter();
         while let Some(word) = words.next() {
             let Some(option) = word.strip_prefix("--") else {
@@ -81,15 +86,22 @@ impl Options {
     }
 
     fn set(&mut self, name: &str, value: Option<String>) -> Result<(), Failure> {
-        if !["targets", "board", "timeout"].contains(&name) {
-            return Err(Failure::usage(format!(
-                "no option `--{name}`; expected --targets, --board or --timeout"
-            )));
+        if !VALUED.contains(&name) {
+            let known = VALUED.map(|name| format!("--{name}")).join(", ");
+            return Err(Failure::usage(format!("no option `--{name}`; expected one of: {known}")));
         }
         let value = value.ok_or_else(|| Failure::usage(format!("--{name} needs a value")))?;
         match name {
             "targets" => self.targets = TargetSource::from_name(&value, "--targets")?,
             "board" => self.board = Some(value),
+            "sabotage" => match value.as_str() {
+                "panic" | "fault" | "hang" => self.sabotage = Some(value),
+                _ => {
+                    return Err(Failure::usage(format!(
+                        "--sabotage: found `{value}`, expected panic, fault or hang"
+                    )));
+                }
+            },
             _ => {
                 let seconds = value.parse().ok().filter(|seconds| (1..=86_400).contains(seconds));
                 let seconds = seconds.ok_or_else(|| {
@@ -128,7 +140,7 @@ mod tests {
         let message = |line| parse(line).expect_err(line).to_string();
         assert_eq!(
             message("test --target x"),
-            "no option `--target`; expected --targets, --board or --timeout"
+            "no option `--target`; expected one of: --targets, --board, --sabotage, --timeout"
         );
         assert_eq!(
             message("test --targets brew"),

@@ -11,7 +11,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let mut table =
         String::from("| board | flash, bytes | static RAM, bytes |\n| --- | ---: | ---: |\n");
     for board in boards::chosen(options)? {
-        let program = firmware::build(board, options.targets)?;
+        let program = firmware::build(board, options)?;
         let unreadable = |why: String| Failure::failed(format!("{}: {why}", program.display()));
         let bytes = std::fs::read(&program).map_err(|error| unreadable(error.to_string()))?;
         let size = elf::size(&bytes).map_err(|why| unreadable(why.to_string()))?;

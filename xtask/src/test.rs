@@ -58,7 +58,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
 /// Builds programs and log decoder up front, so that a test's time is the test's own.
 fn build_boards(options: &Options) -> Result<(), Failure> {
     for board in boards::ALL {
-        firmware::build(board, options.targets)?;
+        firmware::build(board, options)?;
     }
     process::run(&mut qemu::decoder("build"))
 }

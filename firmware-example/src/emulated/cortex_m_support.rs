@@ -1,9 +1,11 @@
-//! Faults of a Cortex-M: reported, then the run ends with failure.
+//! What every Cortex-M board needs: critical sections, and faults that end the run with failure.
 #![expect(
     unsafe_code,
     reason = "cortex-m-rt wants its handlers declared unsafe; they do nothing unsafe"
 )]
 
+// Linked for its critical sections, which the log needs.
+use cortex_m as _;
 use cortex_m_rt::{ExceptionFrame, exception};
 
 #[exception]

@@ -1,0 +1,124 @@
+//! A board's program: built by xtask, changed in place, run by xtask.
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use equivalence_tests::harness::Trouble;
+
+/// xtask's exit code where a tool is missing.
+const MISSING: i32 = 3;
+
+/// An ELF file for a board.
+pub(crate) struct Program {
+    board: String,
+    elf: Vec<u8>,
+}
+
+/// How a run ended.
+pub(crate) struct Outcome {
+    code: Option<i32>,
+    text: String,
+}
+
+impl Program {
+    /// Builds it, with the `sabotage-*` feature given.
+    pub(crate) fn build(board: &str, sabotage: Option<&str>) -> Result<Self, Trouble> {
+        let mut arguments = vec!["build", board];
+        arguments.extend(sabotage.into_iter().flat_map(|sabotage| ["--sabotage", sabotage]));
+        let output = xtask(&arguments)?;
+        if !output.status.success() {
+            return Err(Trouble::Failed(text(&output)));
+        }
+        let path = String::from_utf8_lossy(&output.stdout).trim_end().to_owned();
+        let elf =
+            std::fs::read(&path).map_err(|error| Trouble::Failed(format!("{path}: {error}")))?;
+        Ok(Self { board: board.to_owned(), elf })
+    }
+
+    /// The same program with other data in the place of `data`, which must be in it exactly once.
+    pub(crate) fn with(&self, data: &[u8], other: &[u8]) -> Result<Self, Trouble> {
+        assert_eq!(data.len(), other.len(), "the program's layout must stay");
+        let places: Vec<usize> = self
+            .elf
+            .windows(data.len())
+            .enumerate()
+            .filter_map(|(place, window)| (window == data).then_some(place))
+            .collect();
+        let [place] = places.as_slice() else {
+            return Err(Trouble::Failed(format!(
+                "the data is in the program {} times",
+                places.len()
+            )));
+        };
+        let mut elf = self.elf.clone();
+        elf[*place..place + data.len()].copy_from_slice(other);
+        Ok(Self { board: self.board.clone(), elf })
+    }
+
+    /// Runs it to its end.
+    pub(crate) fn run(&self) -> Result<Outcome, Trouble> {
+        self.run_for(60)
+    }
+
+    /// Runs it for so many seconds at most.
+    pub(crate) fn run_for(&self, seconds: u32) -> Result<Outcome, Trouble> {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let file = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!(
+            "{}-{}-{number}.elf",
+            self.board,
+            std::process::id()
+        ));
+        let failed = |error| Trouble::Failed(format!("{}: {error}", file.display()));
+        std::fs::write(&file, &self.elf).map_err(failed)?;
+        let path = file.display().to_string();
+        let output =
+            xtask(&["qemu", &path, "--board", &self.board, "--timeout", &seconds.to_string()]);
+        std::fs::remove_file(&file).map_err(failed)?;
+        let output = output?;
+        Ok(Outcome { code: output.status.code(), text: text(&output) })
+    }
+}
+
+impl Outcome {
+    /// Fails unless the run ended with this exit code.
+    pub(crate) fn expect(&self, code: i32) -> Result<(), Trouble> {
+        if self.code == Some(code) {
+            return Ok(());
+        }
+        Err(Trouble::Failed(format!(
+            "exit code {code} expected, found {:?}:\n{}",
+            self.code, self.text
+        )))
+    }
+
+    /// Fails unless the run printed this.
+    pub(crate) fn expect_text(&self, text: &str) -> Result<(), Trouble> {
+        if self.text.contains(text) {
+            return Ok(());
+        }
+        Err(Trouble::Failed(format!("expected `{text}`, found:\n{}", self.text)))
+    }
+}
+
+/// Runs an xtask command; a missing tool is no failure of the test.
+fn xtask(arguments: &[&str]) -> Result<Output, Trouble> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(cargo)
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+        .args(["xtask"])
+        .args(arguments)
+        .output()
+        .map_err(|error| Trouble::Failed(format!("cannot start cargo: {error}")))?;
+    if output.status.code() == Some(MISSING) {
+        let said = String::from_utf8_lossy(&output.stderr);
+        let reason = said.lines().last().unwrap_or_default();
+        return Err(Trouble::NotRun(reason.trim_start_matches("xtask: ").to_owned()));
+    }
+    Ok(output)
+}
+
+fn text(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+}
