@@ -16,8 +16,8 @@ fn apply(kind: ActivationKind, x: f32) -> f32 {
 
 /// Spacing of f32 around a value.
 fn ulp(value: f64) -> f64 {
-    let exponent = value.abs().max(f64::from(f32::MIN_POSITIVE)).log2().floor();
-    (exponent - 23.0).exp2()
+    let exponent = libm::log2(value.abs().max(f64::from(f32::MIN_POSITIVE))).floor();
+    libm::exp2(exponent - 23.0)
 }
 
 /// Largest error in ULP of the exact value, and the largest absolute one.
