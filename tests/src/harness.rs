@@ -31,7 +31,8 @@ pub fn main(tests: &[Test]) -> ExitCode {
         }
         return ExitCode::SUCCESS;
     }
-    let nothing_left_out = std::env::var_os("CI").is_some_and(|value| value != "false");
+    let nothing_left_out =
+        std::env::var_os("CI").is_some_and(|value| value != "false" && !value.is_empty());
     let chosen: Vec<&Test> = tests.iter().filter(|(name, _)| filter.takes(name)).collect();
     let started = Instant::now();
     let (mut passed, mut ignored) = (0, 0);
