@@ -23,7 +23,7 @@ mod trace;
 mod yaml;
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, ErrorKind, Seek};
+use std::io::{BufRead, BufReader, Cursor, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
 
 pub use error::{MapError, MapProblem, Place};
@@ -35,7 +35,7 @@ use canvas::Canvas;
 use description::Description;
 use shade::CellRule;
 
-use crate::scenario::Bounds;
+use crate::scenario::{Bounds, shipped};
 
 /// Most cells of a map: 8192 × 8192, or 410 m each way at 5 cm.
 pub const MAX_CELLS: u64 = 1 << 26;
@@ -82,13 +82,28 @@ pub fn load(yaml: &Path) -> Result<OccupancyMap, MapError> {
     assemble(canvas, description, yaml)
 }
 
-/// Opens an ordinary file. If nothing has that name, `missing` is the problem, at `place` of
-/// `blamed`.
-fn open(path: &Path, missing: MapProblem, place: Place, blamed: &Path) -> Result<File, MapError> {
+/// The contents of a file, on disk or inside this program.
+trait Contents: Read + Seek {}
+
+impl<T: Read + Seek> Contents for T {}
+
+/// Opens an ordinary file or one that is shipped inside this program. If nothing has that name,
+/// `missing` is the problem, at `place` of `blamed`.
+fn open(
+    path: &Path,
+    missing: MapProblem,
+    place: Place,
+    blamed: &Path,
+) -> Result<Box<dyn Contents>, MapError> {
+    if let Some(bytes) = shipped::bytes(path) {
+        return Ok(Box::new(Cursor::new(bytes)));
+    }
     let unread = |cause| MapProblem::Read(cause).at(path, Place::File);
     // Asked before opening: opening a pipe would wait for its writer.
     match std::fs::metadata(path) {
-        Ok(about) if about.is_file() => File::open(path).map_err(unread),
+        Ok(about) if about.is_file() => {
+            File::open(path).map(|file| Box::new(file) as Box<dyn Contents>).map_err(unread)
+        }
         Ok(_) => Err(MapProblem::NotAFile.at(path, Place::File)),
         Err(cause) if names_nothing(cause.kind()) => Err(missing.at(blamed, place)),
         Err(cause) => Err(unread(cause)),

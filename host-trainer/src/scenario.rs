@@ -5,7 +5,22 @@
 //! turning it into a scenario is the only place that refuses.
 //! Lengths are metres, angles radians, counter-clockwise positive (the ROS convention).
 
+mod catalogue;
+mod check;
+mod keys;
+mod load;
+mod number;
+mod polygon;
 mod preset;
+mod problem;
+mod reader;
+mod schema;
+mod shapes;
+pub(crate) mod shipped;
+mod source;
+mod value;
+mod words;
+mod writer;
 
 use controller_core::activation::ActivationKind;
 use controller_core::network::RecurrenceKind;
@@ -13,7 +28,20 @@ use controller_core::observation::{BEAMS, BeamMount, Encoding};
 use serde::{Deserialize, Serialize};
 
 pub use crate::evolve::ga::{GaSpec, Mutation, Selection};
+pub use catalogue::{all_shipped, find};
+pub use keys::{Key, all_keys};
+pub use load::{Setting, load, refuse};
 pub use preset::Preset;
+pub use problem::Complaint;
+pub use shipped::Entry;
+pub use source::Source;
+pub use writer::to_toml;
+
+/// Longest name of a scenario, bytes.
+const NAME_LENGTH: usize = 64;
+
+/// Longest description of a scenario, characters.
+const LINE_LENGTH: usize = 200;
 
 /// A complete, valid description of what to train or judge a controller on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,7 +108,7 @@ pub struct Circle {
 }
 
 /// A wall along an open line of points.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Wall {
     /// At least two points, no two neighbours equal.
     pub points: Vec<[f32; 2]>,
@@ -249,6 +277,11 @@ pub struct PairSpec {
     pub min_distance: f32,
 }
 
+impl PairSpec {
+    /// Pairs that are drawn unless a scenario says otherwise (paper, section 3).
+    pub const DRAWN: u32 = 5;
+}
+
 /// Where start/goal pairs come from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -265,7 +298,7 @@ pub enum PairSource {
 }
 
 /// One task: start here, reach that.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pair {
     /// Start pose of the front axle: x, y, heading.
     pub start: [f32; 3],

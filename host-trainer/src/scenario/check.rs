@@ -1,0 +1,229 @@
+//! What must hold between settings, beyond the range of each: no simulator needed.
+
+use super::problem::Complaint;
+use super::schema::FARTHEST;
+use super::*;
+
+/// Everything that does not fit together.
+pub(super) fn complaints(scenario: &Scenario) -> Vec<Complaint> {
+    let mut found = Vec::new();
+    room(scenario, &mut found);
+    // Whether things lie in the room says nothing if the room makes no sense.
+    if found.is_empty() {
+        obstacles(&scenario.world, &mut found);
+        pairs(scenario, &mut found);
+    }
+    vehicle(scenario, &mut found);
+    sensors(scenario, &mut found);
+    if let Err(error) = scenario.training.ga.check() {
+        found.push(search(&error));
+    }
+    found
+}
+
+impl Bounds {
+    /// Width and height, metres.
+    pub fn size(&self) -> [f32; 2] {
+        [self.max[0] - self.min[0], self.max[1] - self.min[1]]
+    }
+
+    /// Whether a point lies inside or on the edge.
+    pub fn contains(&self, [x, y]: [f32; 2]) -> bool {
+        (self.min[0]..=self.max[0]).contains(&x) && (self.min[1]..=self.max[1]).contains(&y)
+    }
+
+    /// Whether the inside has a point in common with a rectangle.
+    fn overlaps(&self, min: [f32; 2], max: [f32; 2]) -> bool {
+        (0..2).all(|axis| min[axis] < self.max[axis] && max[axis] > self.min[axis])
+    }
+}
+
+fn room(scenario: &Scenario, found: &mut Vec<Complaint>) {
+    let Bounds { min, max } = scenario.world.bounds;
+    for (axis, name) in ["x", "y"].into_iter().enumerate() {
+        let (low, high) = (min[axis], max[axis]);
+        let size = high - low;
+        if !(0.1..=FARTHEST as f32).contains(&size) {
+            let detail = format!(
+                "found {name} from {low} m to {high} m, expected a size from 0.1 m to {FARTHEST} m"
+            );
+            let title = "the room has no possible size";
+            found.push(Complaint::new("world.max_m", title, detail).or_at("world.min_m"));
+        }
+    }
+    let [width, height] = scenario.world.bounds.size();
+    let radius = scenario.world.target_radius;
+    if found.is_empty() && 2.0 * radius > width.min(height) {
+        let detail = format!("found a radius of {radius} m in a room of {width} m × {height} m");
+        let title = "the target is larger than the room";
+        found.push(Complaint::new("world.target_radius_m", title, detail).or_at("world.max_m"));
+    }
+}
+
+fn obstacles(world: &WorldSpec, found: &mut Vec<Complaint>) {
+    let Bounds { min, max } = world.bounds;
+    let mut must_overlap = |key: String, low: [f32; 2], high: [f32; 2]| {
+        if !world.bounds.overlaps(low, high) {
+            let title = format!("`{key}` lies outside the room");
+            let detail = format!(
+                "found x from {} m to {} m and y from {} m to {} m, expected a part of it within x {} m to {} m and y {} m to {} m",
+                low[0], high[0], low[1], high[1], min[0], max[0], min[1], max[1]
+            );
+            let help =
+                "move the obstacle, or enlarge the room with `world.min_m` and `world.max_m`";
+            found.push(Complaint::new(key, title, detail).help(help));
+        }
+    };
+    for (index, [x0, y0, x1, y1]) in world.boxes.iter().copied().enumerate() {
+        must_overlap(format!("world.boxes[{index}]"), [x0, y0], [x1, y1]);
+    }
+    for (index, corners) in world.polygons.iter().enumerate() {
+        let (low, high) = extent(corners, 0.0);
+        must_overlap(format!("world.polygons[{index}]"), low, high);
+    }
+    for (index, circle) in world.circles.iter().enumerate() {
+        let (low, high) = extent(&[circle.centre], circle.radius);
+        must_overlap(format!("world.circles[{index}]"), low, high);
+    }
+    for (index, wall) in world.walls.iter().enumerate() {
+        // Half a millimetre more, so that a sheet on the room's edge lies in the room.
+        let (low, high) = extent(&wall.points, wall.thickness / 2.0 + 0.0005);
+        must_overlap(format!("world.walls[{index}]"), low, high);
+    }
+    let corners: usize = world.polygons.iter().map(Vec::len).sum::<usize>()
+        + world.walls.iter().map(|wall| wall.points.len()).sum::<usize>();
+    if corners > shapes::MOST_ITEMS {
+        let detail = format!("found {corners}, expected at most {}", shapes::MOST_ITEMS);
+        let title = "polygons and walls have too many corners together";
+        found.push(Complaint::new("world.polygons", title, detail).or_at("world.walls"));
+    }
+}
+
+/// The smallest rectangle around discs of one radius.
+fn extent(points: &[[f32; 2]], radius: f32) -> ([f32; 2], [f32; 2]) {
+    let mut low = [f32::INFINITY; 2];
+    let mut high = [f32::NEG_INFINITY; 2];
+    for point in points {
+        for axis in 0..2 {
+            low[axis] = low[axis].min(point[axis] - radius);
+            high[axis] = high[axis].max(point[axis] + radius);
+        }
+    }
+    (low, high)
+}
+
+fn vehicle(scenario: &Scenario, found: &mut Vec<Complaint>) {
+    let VehicleSpec { length, width, front_overhang, step, .. } = scenario.vehicle;
+    if front_overhang > length {
+        let detail = format!(
+            "found {front_overhang} m with a body of {length} m, expected the front axle under the body"
+        );
+        let title = "the front overhang is longer than the body";
+        let complaint = Complaint::new("vehicle.front_overhang_m", title, detail);
+        found.push(complaint.or_at("vehicle.length_m"));
+    }
+    let (StepLength::Constant(step) | StepLength::Variable { upper: step, .. }) = step;
+    let longest = step * (1.0 + scenario.episode.randomise.step);
+    let smaller = length.min(width);
+    if longest > smaller {
+        let detail = format!(
+            "found up to {longest} m per step, expected at most {smaller} m, the body's smaller side"
+        );
+        let complaint =
+            Complaint::new("vehicle.step_m", "the car could jump through a wall", detail)
+                .or_at("episode.randomise.step")
+                .or_at("vehicle.width_m")
+                .or_at("vehicle.length_m")
+                .help("shorten the step (and the period), or describe a larger body");
+        found.push(complaint);
+    }
+}
+
+fn sensors(scenario: &Scenario, found: &mut Vec<Complaint>) {
+    let SensorSpec { range, noise, .. } = scenario.sensors;
+    if noise > range {
+        let detail = format!("found {noise} m, expected at most the range, {range} m");
+        let title = "the noise is larger than the beams' range";
+        found.push(Complaint::new("sensors.noise_m", title, detail).or_at("sensors.range_m"));
+    }
+}
+
+fn pairs(scenario: &Scenario, found: &mut Vec<Complaint>) {
+    let bounds = &scenario.world.bounds;
+    match &scenario.pairs.source {
+        PairSource::Drawn { .. } => {
+            let radius = scenario.world.target_radius;
+            let [width, height] = bounds.size();
+            let (width, height) =
+                (width.max(2.0 * radius) - radius, height.max(2.0 * radius) - radius);
+            let longest = (width * width + height * height).sqrt();
+            let distance = scenario.pairs.min_distance;
+            if distance > longest {
+                let detail = format!(
+                    "found {distance} m, expected less than {longest:.1} m, the farthest that a start and a target fit into the room"
+                );
+                let title = "no start and goal can be so far apart";
+                let complaint = Complaint::new("pairs.min_distance_m", title, detail);
+                found.push(complaint.or_at("world.max_m").or_at("world.min_m"));
+            }
+        }
+        PairSource::Listed(list) => {
+            for (index, pair) in list.iter().enumerate() {
+                pair_in_room(scenario, index, pair, found);
+            }
+        }
+    }
+}
+
+fn pair_in_room(scenario: &Scenario, index: usize, pair: &Pair, found: &mut Vec<Complaint>) {
+    let Bounds { min, max } = scenario.world.bounds;
+    let [x, y, heading] = pair.start;
+    for (name, point) in [("start", [x, y]), ("goal", pair.goal)] {
+        if !scenario.world.bounds.contains(point) {
+            let key = format!("pairs.list[{index}].{name}");
+            let title = format!("`{key}` lies outside the room");
+            let detail = format!(
+                "found ({}, {}), expected x from {} m to {} m and y from {} m to {} m",
+                point[0], point[1], min[0], max[0], min[1], max[1]
+            );
+            found.push(Complaint::new(key, title, detail));
+            return;
+        }
+    }
+    let (sin, cos) = (libm::sinf(heading), libm::cosf(heading));
+    let offset = [pair.goal[0] - x, pair.goal[1] - y];
+    let ahead = offset[0] * cos + offset[1] * sin;
+    let left = offset[1] * cos - offset[0] * sin;
+    let distance = match scenario.episode.reached_by {
+        ReachedBy::ReferencePoint => libm::hypotf(ahead, left),
+        ReachedBy::Body => {
+            let VehicleSpec { length, width, front_overhang, .. } = scenario.vehicle;
+            let beyond_front = (ahead - front_overhang).max(front_overhang - length - ahead);
+            let beyond_side = left.abs() - width / 2.0;
+            libm::hypotf(beyond_front.max(0.0), beyond_side.max(0.0))
+        }
+    };
+    let radius = scenario.world.target_radius;
+    if distance <= radius {
+        let key = format!("pairs.list[{index}].goal");
+        let detail = format!(
+            "found {distance} m between car and goal, expected more than the target's radius, {radius} m"
+        );
+        found.push(Complaint::new(key, "the target is reached before the car moves", detail));
+    }
+}
+
+/// A refused setting of the search; each number alone was in its range already.
+fn search(error: &crate::evolve::ga::SettingError) -> Complaint {
+    let detail = format!("found {}, expected {}", error.found, error.expected);
+    let title = "the settings of the genetic algorithm do not fit together";
+    match error.setting {
+        "shares" => {
+            ["crossover_share", "mutation_share", "ranking_share", "random_share"].into_iter().fold(
+                Complaint { keys: Vec::new(), title: title.to_owned(), detail, help: None },
+                |complaint, key| complaint.or_at(format!("training.ga.{key}")),
+            )
+        }
+        setting => Complaint::new(format!("training.ga.{setting}"), title, detail),
+    }
+}

@@ -1,0 +1,289 @@
+//! Every setting of a scenario file: its key, what it may be, and where it is kept.
+//!
+//! One list serves the reader, the writer and the suggestions, so that they cannot disagree.
+
+use super::number::{Number, OrInfinite, Whole};
+use super::problem::Problem;
+use super::shapes::{self, Area, List, Point, Pose};
+use super::value::Found;
+use super::words::{DISTANCE_LAW, Flag, Line, MUTATION, Name, SELECTION, Step, Text, Word};
+use super::*;
+
+/// How one value of a file stands for one value of a scenario.
+pub(super) trait Codec<T> {
+    /// The value meant; none after saying why the file's value means none.
+    fn read(&self, found: &Found<'_>, problems: &mut Vec<Problem>) -> Option<T>;
+
+    /// What to write in a file; none to leave the key out.
+    fn write(&self, value: &T) -> Option<String>;
+
+    /// What may stand there: goes on after "expected".
+    fn expected(&self) -> String;
+}
+
+impl<T, C: Codec<T>> Codec<T> for &C {
+    fn read(&self, found: &Found<'_>, problems: &mut Vec<Problem>) -> Option<T> {
+        (*self).read(found, problems)
+    }
+
+    fn write(&self, value: &T) -> Option<String> {
+        (*self).write(value)
+    }
+
+    fn expected(&self) -> String {
+        (*self).expected()
+    }
+}
+
+/// Something that goes through the settings: reads, writes or lists them.
+pub(super) trait Visit {
+    /// One setting. `about` says what it is, for people.
+    fn value<T>(&mut self, key: &'static str, slot: &mut T, codec: impl Codec<T>, about: &str);
+
+    /// Settings under a common key.
+    fn section(&mut self, key: &'static str, record: &mut impl Record);
+
+    /// Settings under a common key that may all be absent; `blank` holds their defaults.
+    fn optional_section<R: Record>(&mut self, key: &'static str, slot: &mut Option<R>, blank: R);
+}
+
+/// Settings that belong together.
+pub(super) trait Record {
+    /// Keys without a default: absent ones are an error.
+    const REQUIRED: &'static [&'static str] = &[];
+
+    /// Shows every setting to the visitor, in the order of the file.
+    fn visit(&mut self, v: &mut impl Visit);
+}
+
+/// Longest side of a room, and farthest coordinate, metres: 32-bit coordinates still resolve
+/// a millimetre there.
+pub(super) const FARTHEST: f64 = 10_000.0;
+
+/// Sizes of a body and its parts.
+const SIZE: Number = Number::metres(0.001, 100.0);
+/// A body's lengths that may vanish.
+const SPAN: Number = Number::metres(0.0, 100.0);
+/// Shares, probabilities and relative deviations.
+const SHARE: Number = Number::share();
+/// Weights of the cost.
+const COST: Number = Number::plain(0.0, 1e9);
+/// More than anybody will wait for.
+const COUNT: Whole = Whole { low: 1, high: 1_000_000 };
+
+impl Record for Scenario {
+    fn visit(&mut self, v: &mut impl Visit) {
+        v.value("name", &mut self.name, Name, "letters, digits, `-` and `_`");
+        v.value("description", &mut self.description, Line, "one line for people");
+        v.section("world", &mut self.world);
+        v.section("vehicle", &mut self.vehicle);
+        v.section("sensors", &mut self.sensors);
+        v.section("network", &mut self.network);
+        v.section("episode", &mut self.episode);
+        v.section("fitness", &mut self.fitness);
+        v.section("pairs", &mut self.pairs);
+        v.section("training", &mut self.training);
+    }
+}
+
+impl Record for WorldSpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        let Bounds { min, max } = &mut self.bounds;
+        v.value("min_m", min, Point, "lower left corner of the room");
+        v.value("max_m", max, Point, "upper right corner of the room");
+        v.value("outer_wall", &mut self.outer_wall, Flag, "whether the room's edge is a wall");
+        let radius = Number::metres(0.001, 100.0);
+        v.value("target_radius_m", &mut self.target_radius, radius, "the target is a disc");
+        v.value("boxes", &mut self.boxes, List(Area), "solid boxes [x0, y0, x1, y1], metres");
+        let polygons = List(shapes::Polygon);
+        v.value("polygons", &mut self.polygons, polygons, "solid polygons [[x, y], ...], metres");
+        v.value(
+            "circles",
+            &mut self.circles,
+            List(shapes::Disc),
+            "solid discs [x, y, radius], metres",
+        );
+        v.value("walls", &mut self.walls, List(shapes::Entry::<Wall>::new()), "walls along lines");
+        let blank = MapSpec { yaml: Default::default(), unknown_is_obstacle: true, lethal: 100 };
+        v.optional_section("map", &mut self.map, blank);
+    }
+}
+
+impl Record for Wall {
+    const REQUIRED: &'static [&'static str] = &["points"];
+
+    fn visit(&mut self, v: &mut impl Visit) {
+        v.value("points", &mut self.points, shapes::Polyline, "the middle of the wall");
+        v.value("thickness_m", &mut self.thickness, SPAN, "0 is a sheet");
+    }
+}
+
+impl Record for MapSpec {
+    const REQUIRED: &'static [&'static str] = &["yaml"];
+
+    fn visit(&mut self, v: &mut impl Visit) {
+        v.value("yaml", &mut self.yaml, Text, "a map_server file, relative to this file");
+        let unknown = &mut self.unknown_is_obstacle;
+        v.value("unknown_is_obstacle", unknown, Flag, "whether unknown cells are solid");
+        let percent = Whole { low: 1, high: 100 };
+        v.value("lethal", &mut self.lethal, percent, "occupancy from which a cell is solid");
+    }
+}
+
+impl Record for VehicleSpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        v.value("length_m", &mut self.length, SIZE, "body, bumper to bumper");
+        v.value("width_m", &mut self.width, SIZE, "body");
+        let overhang = &mut self.front_overhang;
+        v.value("front_overhang_m", overhang, SPAN, "front axle to front bumper");
+        v.value("wheelbase_m", &mut self.wheelbase, SIZE, "axle to axle");
+        v.value(
+            "step_m",
+            &mut self.step,
+            Step,
+            "per control period; [lower, upper] lets the network choose",
+        );
+        let steer = Number::degrees(0.0, 90.0).above();
+        v.value("steer_limit_deg", &mut self.steer_limit, steer, "to either side");
+        let rate = OrInfinite(Number::degrees_per_second(0.0, 1e6).above());
+        v.value("servo_rate_deg_per_s", &mut self.servo_rate, rate, "inf: the wheels turn at once");
+        let delay = Whole { low: 0, high: Self::MAX_DELAY.into() };
+        v.value("delay_periods", &mut self.delay_periods, delay, "from deciding to acting");
+    }
+}
+
+impl Record for SensorSpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        v.value(
+            "beams",
+            &mut self.beams,
+            shapes::Beams,
+            "in the front axle's frame, rightmost first",
+        );
+        let range = Number::metres(0.01, 1000.0);
+        v.value("range_m", &mut self.range, range, "longest distance a beam reports");
+        let Encoding { distance, types } = &mut self.encoding;
+        v.value("distance_law", distance, DISTANCE_LAW, "how distances become inputs");
+        v.value("type_code", types, Word(words::TYPE_CODES), "how hits become two inputs");
+        let noise = Number::metres(0.0, 1000.0);
+        v.value("noise_m", &mut self.noise, noise, "standard deviation of a distance");
+        v.value("dropout", &mut self.dropout, SHARE, "probability that a beam sees nothing");
+    }
+}
+
+impl Record for BeamMount {
+    const REQUIRED: &'static [&'static str] = &["angle_deg"];
+
+    fn visit(&mut self, v: &mut impl Visit) {
+        let offset = Number::metres(-100.0, 100.0);
+        v.value("x_m", &mut self.x, offset, "ahead of the front axle");
+        v.value("y_m", &mut self.y, offset, "left of the middle line");
+        let angle = Number::degrees(-180.0, 180.0);
+        v.value("angle_deg", &mut self.angle, angle, "left of straight ahead");
+    }
+}
+
+impl Record for NetworkSpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        v.value("hidden", &mut self.hidden, words::Hidden, "neurons in each of two hidden layers");
+        let recurrences = Word(words::RECURRENCES);
+        v.value("recurrence", &mut self.recurrence, recurrences, "what a hidden neuron remembers");
+        v.value("biases", &mut self.biases, Flag, "whether neurons have biases");
+        v.value("activation", &mut self.activation, Word(words::ACTIVATIONS), "which tanh");
+    }
+}
+
+impl Record for EpisodeSpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        v.value("step_limit", &mut self.step_limit, COUNT, "control periods");
+        v.value("period_s", &mut self.period, Number::seconds(0.001, 10.0), "control period");
+        let collisions = Word(words::COLLISIONS);
+        v.value("on_collision", &mut self.on_collision, collisions, "what a collision does");
+        let touches = Word(words::TOUCHES);
+        v.value("reached_by", &mut self.reached_by, touches, "what must touch the target");
+        let offset = &mut self.start_offset;
+        v.value("start_offset_m", offset, SPAN, "largest random shift of a start");
+        let turn = Number::degrees(0.0, 180.0);
+        v.value("start_turn_deg", &mut self.start_turn, turn, "largest random turn of a start");
+        v.section("randomise", &mut self.randomise);
+    }
+}
+
+impl Record for RandomiseSpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        let deviation = Number::plain(0.0, 0.99);
+        v.value("wheelbase", &mut self.wheelbase, deviation, "largest relative deviation");
+        v.value("step", &mut self.step, deviation, "largest relative deviation");
+        let angle = Number::degrees(0.0, 90.0);
+        v.value("steer_offset_deg", &mut self.steer_offset, angle, "largest steering error");
+    }
+}
+
+impl Record for FitnessSpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        v.value("distance", &mut self.distance, COST, "c1, per metre to the target at the end");
+        v.value("length", &mut self.length, COST, "c2, per metre driven");
+        v.value("collision", &mut self.collision, COST, "c3, per collision");
+        v.value("bonus", &mut self.bonus, COST, "B, taken off when the target is reached");
+    }
+}
+
+impl Record for PairSpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        let (mut count, mut resample, mut list) = match &mut self.source {
+            PairSource::Drawn { count, resample } => (Some(*count), Some(*resample), Vec::new()),
+            PairSource::Listed(list) => (None, None, std::mem::take(list)),
+        };
+        let counts = shapes::Maybe(Whole { low: 1, high: 100_000 });
+        v.value("count", &mut count, counts, "pairs drawn from the run's seed");
+        v.value("resample", &mut resample, shapes::Maybe(Flag), "draw new ones each generation");
+        let lengths = Number::metres(0.0, FARTHEST);
+        v.value("min_distance_m", &mut self.min_distance, lengths, "start to goal of a drawn pair");
+        v.value(
+            "list",
+            &mut list,
+            List(shapes::Entry::<Pair>::new()),
+            "pairs instead of drawn ones",
+        );
+        self.source = if list.is_empty() {
+            PairSource::Drawn {
+                count: count.unwrap_or(Self::DRAWN),
+                resample: resample.unwrap_or(false),
+            }
+        } else {
+            PairSource::Listed(list)
+        };
+    }
+}
+
+impl Record for Pair {
+    const REQUIRED: &'static [&'static str] = &["start", "goal"];
+
+    fn visit(&mut self, v: &mut impl Visit) {
+        v.value("start", &mut self.start, Pose, "[x, y, heading], metres and degrees");
+        v.value("goal", &mut self.goal, Point, "[x, y], metres");
+    }
+}
+
+impl Record for TrainingSpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        let population = Whole { low: 2, high: 1_000_000 };
+        v.value("population", &mut self.population, population, "individuals");
+        v.value("generations", &mut self.generations, COUNT, "");
+        let bound = Number::plain(0.0, 1000.0).above();
+        v.value("weight_bound", &mut self.weight_bound, bound, "weights stay within ± this");
+        v.section("ga", &mut self.ga);
+    }
+}
+
+impl Record for GaSpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        v.value("crossover_share", &mut self.crossover_share, SHARE, "P1, crossed over");
+        v.value("mutation_share", &mut self.mutation_share, SHARE, "P2, mutated");
+        v.value("ranking_share", &mut self.ranking_share, SHARE, "P3, the best, copied");
+        v.value("random_share", &mut self.random_share, SHARE, "P4, copied at random");
+        v.value("selection", &mut self.selection, SELECTION, "of P1 and P2");
+        v.value("mutation_rate", &mut self.mutation_rate, SHARE, "about half of it changes");
+        v.value("mutation", &mut self.mutation, MUTATION, "what a changed gene becomes");
+    }
+}
