@@ -3,8 +3,10 @@
 pub mod blob_file;
 pub mod checkpoint;
 pub mod evolve;
+pub mod export;
 pub mod failure;
 pub mod files;
+pub mod fingerprint;
 pub mod map;
 pub mod output;
 pub mod run_folder;
@@ -16,3 +18,5 @@ pub mod signals;
 mod sample_blob;
 #[cfg(test)]
 mod test_process;
+#[cfg(test)]
+mod test_tools;
