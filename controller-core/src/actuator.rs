@@ -4,6 +4,7 @@
 //! them; the closed-loop proofs on a board run the same code.
 
 use crate::controller::Command;
+use crate::lane::Lane;
 use crate::units::SteerAngle;
 use heapless::Deque;
 
@@ -33,12 +34,13 @@ pub struct Actuator {
 
 impl Actuator {
     /// An actuator with `delay` periods of dead time (at most [`MAX_DELAY`]; more is cut) whose
-    /// wheels turn by at most `turn_per_period` radians a period, or at once.
+    /// wheels turn by at most `turn_per_period` radians a period, or at once. A rate that is
+    /// negative or NaN holds the wheels where they are.
     pub fn new(delay: usize, turn_per_period: Option<f32>) -> Self {
         Self {
             waiting: Deque::new(),
             delay: delay.min(MAX_DELAY),
-            turn_per_period,
+            turn_per_period: turn_per_period.map(|most| most.max(0.0)),
             steer: SteerAngle::STRAIGHT,
         }
     }
@@ -61,7 +63,8 @@ impl Actuator {
         self.steer = match self.turn_per_period {
             None => due.steer,
             Some(most) => {
-                let turn = (due.steer.radians() - self.steer.radians()).clamp(-most, most);
+                // `f32::clamp` would bring a panic path for a bad limit.
+                let turn = (due.steer.radians() - self.steer.radians()).held_within(most);
                 SteerAngle::from_radians(self.steer.radians() + turn)
             }
         };

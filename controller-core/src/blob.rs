@@ -39,8 +39,22 @@ pub const WEIGHT_LIMIT: f32 = 1.0e6;
 /// ascending, nothing fused.
 pub const SUMMATION_ORDER: u8 = 1;
 
-/// Detects every error of up to four bits in a blob of this size, and bursts of up to 64.
+/// Detects every error of up to four bits in blobs of up to 8 KiB, and bursts of up to 64 bits.
+/// Without a table: a boot-time check may take milliseconds, two kilobytes of flash may not be there.
 const CHECK: Crc<u64, NoTable> = Crc::<u64, NoTable>::new(&CRC_64_XZ);
+
+/// Puts bytes at a multiple of four, where [`Blob::parse`] can read them in place.
+///
+/// ```
+/// use controller_core::blob::{Aligned, Blob, BlobError};
+///
+/// // On a device: Aligned(*include_bytes!("champion.blob"))
+/// static CHAMPION: Aligned<[u8; 256]> = Aligned([0xff; 256]);
+/// assert_eq!(Blob::parse(&CHAMPION.0).unwrap_err(), BlobError::Magic { found: [0xff; 8] });
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C, align(4))]
+pub struct Aligned<T: ?Sized>(pub T);
 
 /// Why bytes are not a blob that this program can use.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -180,8 +194,8 @@ impl<'a> Blob<'a> {
     ///
     /// # Errors
     ///
-    /// The first thing that is wrong, looked for in this order: magic, version, length, check,
-    /// header, weights, self-test.
+    /// The first thing that is wrong, looked for in this order: magic, version, stated length,
+    /// check, header, length against topology, alignment, weights, self-test.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, BlobError> {
         let expected = stated_len(bytes)?;
         if bytes.len() > expected {

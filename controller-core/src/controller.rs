@@ -39,10 +39,13 @@ pub struct Scaling {
 
 impl Scaling {
     /// The command that the network's outputs mean: the first is the steer angle, a second, if
-    /// any, the speed.
+    /// any, the speed. Outputs that are NaN, or none at all, mean [`Command::STOP`].
     #[inline]
     pub fn command(&self, outputs: &[f32]) -> Command {
-        let steer = outputs.first().copied().unwrap_or(0.0);
+        let steer = outputs.first().copied().unwrap_or(f32::NAN);
+        if steer.is_nan() || outputs.get(1).is_some_and(|speed| speed.is_nan()) {
+            return Command::STOP;
+        }
         let step = match outputs.get(1) {
             Some(speed) => StepLength::from_unit(*speed, self.step_lower, self.step_upper),
             None => StepLength::from_metres(self.step_upper),
@@ -51,14 +54,14 @@ impl Scaling {
     }
 }
 
-/// Good readings in a row after a bad one before the car moves again.
+/// Good readings in a row after a bad one that the car needs: it moves again on the last.
 pub const RECOVERY: u32 = 3;
 
 /// A network with its memory and its fail-safe.
 ///
 /// **State rule.** The network steps only on readings it acts on. A bad reading, and the good
-/// ones that follow it until [`RECOVERY`] in a row, give [`Command::STOP`] and leave the
-/// recurrent state as it was: a fault never enters the memory.
+/// ones after it up to the one before the [`RECOVERY`]-th in a row, give [`Command::STOP`] and
+/// leave the recurrent state as it was: a fault never enters the memory.
 #[derive(Clone, Debug)]
 pub struct Controller<'a, R: Recurrence, A, const H: usize, const O: usize> {
     network: Network<'a, R, f32, INPUTS, H, O>,

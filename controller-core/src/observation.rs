@@ -99,12 +99,18 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// Accepts what the sensors reported, `age` control periods ago.
+    /// Accepts what the sensors reported, `age` control periods ago, through beams of this
+    /// range in metres.
+    ///
+    /// The range is the one the weights were trained with
+    /// ([`Scaling::range`](crate::controller::Scaling::range)): a sensor that sees further
+    /// reports [`Echo::Nothing`] past it.
     ///
     /// # Errors
     ///
-    /// A beam that is missing or whose distance is not in `0.0..=range`, or an age of more than
-    /// [`STALE_AFTER`]: no data is danger, never "free".
+    /// A beam that is missing or whose distance is not finite and in `0.0..=range`, or an age
+    /// of more than [`STALE_AFTER`]: no data is danger, never "free". A beam that sees nothing
+    /// counts with its range, so a range that is NaN, infinite or negative refuses every reading.
     pub fn new(echoes: [Option<Echo>; BEAMS], age: u32, range: f32) -> Result<Self, ReadingError> {
         if age > STALE_AFTER {
             return Err(ReadingError::Stale { age });
@@ -112,9 +118,11 @@ impl Reading {
         let mut checked = [Echo::Nothing; BEAMS];
         for (beam, (slot, echo)) in checked.iter_mut().zip(echoes).enumerate() {
             let echo = echo.ok_or(ReadingError::Missing { beam })?;
-            if let Echo::Wall(distance) | Echo::Target(distance) = echo
-                && !(0.0..=range).contains(&distance)
-            {
+            let distance = match echo {
+                Echo::Nothing => range,
+                Echo::Wall(distance) | Echo::Target(distance) => distance,
+            };
+            if !(distance.is_finite() && (0.0..=range).contains(&distance)) {
                 return Err(ReadingError::OutOfRange { beam, distance });
             }
             *slot = echo;

@@ -1,7 +1,7 @@
 //! Does this machine compute what the trainer computed? Asked at boot, answered in bits.
 
 use super::{Blob, WrongTopology};
-use crate::activation::Activation;
+use crate::activation::{Activation, ActivationKind};
 use crate::network::{Recurrence, State};
 use crate::observation::INPUTS;
 use core::fmt;
@@ -13,6 +13,13 @@ use core::hint::black_box;
 pub enum SelfTestError {
     /// The blob holds another network.
     Topology(WrongTopology),
+    /// The blob's weights were trained with another tanh.
+    Activation {
+        /// The blob's.
+        found: ActivationKind,
+        /// The program's.
+        expected: ActivationKind,
+    },
     /// A recorded output came out with other bits.
     Output {
         /// Which triple.
@@ -37,6 +44,9 @@ impl fmt::Display for SelfTestError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Topology(error) => error.fmt(f),
+            Self::Activation { found, expected } => {
+                write!(f, "the blob was trained with tanh {found}, this program runs {expected}")
+            }
             Self::Output { triple, output, found, expected } => write!(
                 f,
                 "self-test {triple}, output {output}: {found:08x} computed, {expected:08x} recorded"
@@ -75,7 +85,8 @@ pub fn arithmetic_self_test() -> Result<(), SelfTestError> {
 }
 
 impl Blob<'_> {
-    /// Runs every recorded triple through the network and compares outputs as bits.
+    /// Runs every recorded triple through the network and compares outputs as bits. A blob
+    /// without triples passes if this machine's arithmetic, network and tanh are the right ones.
     ///
     /// # Errors
     ///
@@ -86,6 +97,10 @@ impl Blob<'_> {
     ) -> Result<(), SelfTestError> {
         arithmetic_self_test()?;
         let network = self.network::<R, H, O>().map_err(SelfTestError::Topology)?;
+        let (found, expected) = (self.header().activation, activation.kind());
+        if found != expected {
+            return Err(SelfTestError::Activation { found, expected });
+        }
         let words = const { INPUTS + 2 * H + O };
         for (triple, record) in self.self_tests.chunks_exact(words).enumerate() {
             let Some((inputs, rest)) = record.split_first_chunk::<INPUTS>() else { continue };
