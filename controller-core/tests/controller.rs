@@ -2,7 +2,7 @@
 
 use controller_core::activation::Rational;
 use controller_core::actuator::{Actuator, MAX_DELAY};
-use controller_core::control_loop::{Actuate, Sense, TickError, tick};
+use controller_core::control_loop::{Actuate, Decide, Sense, TickError, tick};
 use controller_core::controller::{Command, Controller, RECOVERY, Scaling};
 use controller_core::network::{Elman, Network, Recurrence, State};
 use controller_core::observation::{DistanceLaw, Echo, Encoding, Reading, ReadingError, TypeCode};
@@ -86,19 +86,23 @@ fn a_bad_reading_stops_the_car_in_the_same_period_and_leaves_no_trace_in_the_mem
         for error in faults(start) {
             let mut undisturbed = controller(&genome);
             for period in 0..start {
-                undisturbed.step(Ok(&good(period)));
+                undisturbed.decide(Ok(&good(period)));
             }
             let mut disturbed = undisturbed.clone();
-            assert_eq!(disturbed.step(Err(error)), Command::STOP, "{error}");
+            assert_eq!(disturbed.decide(Err(error)), Command::STOP, "{error}");
             assert!(same(&disturbed, &undisturbed), "{error} changed the state");
             for owed in 1..RECOVERY {
-                assert_eq!(disturbed.step(Ok(&good(start))), Command::STOP, "{owed} after {error}");
+                assert_eq!(
+                    disturbed.decide(Ok(&good(start))),
+                    Command::STOP,
+                    "{owed} after {error}"
+                );
                 assert!(same(&disturbed, &undisturbed), "{owed} after {error}");
             }
             // From the RECOVERY-th good reading on, the drive goes on bit for bit.
             for period in start..start + 10 {
-                let expected = undisturbed.step(Ok(&good(period)));
-                assert_eq!(disturbed.step(Ok(&good(period))), expected, "after {error}");
+                let expected = undisturbed.decide(Ok(&good(period)));
+                assert_eq!(disturbed.decide(Ok(&good(period))), expected, "after {error}");
                 assert!(same(&disturbed, &undisturbed));
             }
         }
@@ -110,15 +114,15 @@ fn another_bad_reading_while_recovering_starts_the_count_again() {
     let genome = genome();
     let mut controller = controller(&genome);
     let bad = Err(ReadingError::Missing { beam: 2 });
-    controller.step(bad);
+    controller.decide(bad);
     for _ in 0..5 {
-        assert_eq!(controller.step(Ok(&good(0))), Command::STOP);
-        assert_eq!(controller.step(Ok(&good(0))), Command::STOP);
-        assert_eq!(controller.step(bad), Command::STOP);
+        assert_eq!(controller.decide(Ok(&good(0))), Command::STOP);
+        assert_eq!(controller.decide(Ok(&good(0))), Command::STOP);
+        assert_eq!(controller.decide(bad), Command::STOP);
     }
-    assert_eq!(controller.step(Ok(&good(0))), Command::STOP);
-    assert_eq!(controller.step(Ok(&good(0))), Command::STOP);
-    assert_ne!(controller.step(Ok(&good(0))), Command::STOP);
+    assert_eq!(controller.decide(Ok(&good(0))), Command::STOP);
+    assert_eq!(controller.decide(Ok(&good(0))), Command::STOP);
+    assert_ne!(controller.decide(Ok(&good(0))), Command::STOP);
 }
 
 #[test]
@@ -126,13 +130,13 @@ fn reset_forgets_the_drive_and_the_fault() {
     let genome = genome();
     let mut used = controller(&genome);
     for period in 0..7 {
-        used.step(Ok(&good(period)));
+        used.decide(Ok(&good(period)));
     }
-    used.step(Err(ReadingError::Stale { age: 9 }));
+    used.decide(Err(ReadingError::Stale { age: 9 }));
     used.reset();
     let mut fresh = controller(&genome);
     for period in 0..20 {
-        assert_eq!(used.step(Ok(&good(period))), fresh.step(Ok(&good(period))));
+        assert_eq!(used.decide(Ok(&good(period))), fresh.decide(Ok(&good(period))));
         assert!(same(&used, &fresh));
     }
 }
@@ -144,7 +148,7 @@ fn an_output_that_is_no_number_stops_the_car() {
     assert_eq!(SCALING.command(&[]), Command::STOP);
     let mut genome = genome();
     genome[100] = f32::NAN;
-    assert_eq!(controller(&genome).step(Ok(&good(3))), Command::STOP);
+    assert_eq!(controller(&genome).decide(Ok(&good(3))), Command::STOP);
 }
 
 #[test]
@@ -159,27 +163,25 @@ fn one_output_steers_at_the_upper_step_and_two_choose_the_step() {
     assert_eq!(command(&[0.0, 0.0]), (0.0, 0.156_25));
 }
 
-/// A sensor that reports what it was told to, in order.
-struct Script(Vec<Result<Reading, ReadingError>>);
+/// A car that reports what it was told to, writes down what it is told to do, and refuses it on
+/// demand.
+struct Car {
+    readings: Vec<Result<Reading, ReadingError>>,
+    commands: Vec<Command>,
+    refuses: bool,
+}
 
-impl Sense for Script {
+impl Sense for Car {
     fn sense(&mut self) -> Result<Reading, ReadingError> {
-        self.0.remove(0)
+        self.readings.remove(0)
     }
 }
 
-/// Wheels that write down what they are told, and refuse it on demand.
-#[derive(Default)]
-struct Wheels {
-    commands: Vec<Command>,
-    refuse: bool,
-}
-
-impl Actuate for Wheels {
+impl Actuate for Car {
     type Error = &'static str;
     fn actuate(&mut self, command: Command) -> Result<(), &'static str> {
         self.commands.push(command);
-        if self.refuse { Err("the servo bus is down") } else { Ok(()) }
+        if self.refuses { Err("the servo bus is down") } else { Ok(()) }
     }
 }
 
@@ -188,13 +190,14 @@ fn a_bad_reading_is_reported_after_the_stop_was_commanded() {
     let genome = genome();
     let mut controller = controller(&genome);
     let error = ReadingError::Missing { beam: 3 };
-    let (mut sensor, mut wheels) = (Script(vec![Ok(good(0)), Err(error)]), Wheels::default());
-    let driven = tick(&mut sensor, &mut controller, &mut wheels).unwrap();
+    let readings = vec![Ok(good(0)), Err(error)];
+    let mut car = Car { readings, commands: Vec::new(), refuses: false };
+    let driven = tick(&mut car, &mut controller).unwrap();
     assert_ne!(driven, Command::STOP);
-    let reported = tick(&mut sensor, &mut controller, &mut wheels).unwrap_err();
+    let reported = tick(&mut car, &mut controller).unwrap_err();
     assert_eq!(reported, TickError::Sense(error));
     assert_eq!(reported.to_string(), "stopped: beam 3 did not answer");
-    assert_eq!(wheels.commands, [driven, Command::STOP]);
+    assert_eq!(car.commands, [driven, Command::STOP]);
 }
 
 #[test]
@@ -202,14 +205,14 @@ fn an_actuator_that_refuses_is_reported_with_its_own_words() {
     let genome = genome();
     let mut controller = controller(&genome);
     let error = ReadingError::Stale { age: 5 };
-    let mut sensor = Script(vec![Ok(good(0)), Err(error)]);
-    let mut wheels = Wheels { refuse: true, ..Wheels::default() };
+    let readings = vec![Ok(good(0)), Err(error)];
+    let mut car = Car { readings, commands: Vec::new(), refuses: true };
     for _ in 0..2 {
-        let reported = tick(&mut sensor, &mut controller, &mut wheels).unwrap_err();
+        let reported = tick(&mut car, &mut controller).unwrap_err();
         assert_eq!(reported, TickError::Actuate("the servo bus is down"));
         assert_eq!(reported.to_string(), "the actuator refused: the servo bus is down");
     }
-    assert_eq!(wheels.commands[1], Command::STOP);
+    assert_eq!(car.commands[1], Command::STOP);
 }
 
 fn drive(steer: f32) -> Command {

@@ -4,6 +4,7 @@ use crate::buffer::Buffer;
 use crate::cases::{Case, all, named};
 use controller_core::activation::ActivationKind;
 use controller_core::blob::{Blob, Header, Provenance};
+use controller_core::control_loop::Decide;
 use controller_core::controller::{Command, Controller, Scaling};
 use controller_core::network::{
     Elman, Feedforward, Recurrence, RecurrenceKind, SelfLoop, Topology,
@@ -226,7 +227,7 @@ fn drives_safely<R: Recurrence, const H: usize, const O: usize>(
         let reading = Reading::new(echoes, mixed % 4, range).unwrap();
         let inputs = header.scaling.encoding.inputs(&reading.sight(), range);
         prop_assert!(inputs.iter().all(|input| (0.0..=1.0).contains(input)), "{inputs:?}");
-        let Command { steer, step } = controller.step(Ok(&reading));
+        let Command { steer, step } = controller.decide(Ok(&reading));
         let scaling = header.scaling;
         prop_assert!(steer.radians().abs() <= scaling.steer_limit);
         prop_assert!(step.metres() >= scaling.step_lower && step.metres() <= scaling.step_upper);
