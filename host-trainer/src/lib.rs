@@ -9,6 +9,7 @@ pub mod files;
 pub mod fingerprint;
 pub mod map;
 pub mod output;
+pub mod report;
 pub mod run_folder;
 pub mod scenario;
 pub mod seed;
