@@ -1,12 +1,9 @@
 //! What a report is made from: metres, radians counter-clockwise, x forward, y left.
 
-use serde::Serialize;
-
-/// Number of beams a car carries.
-pub const BEAMS: usize = 5;
+pub use controller_core::observation::{BEAMS, BeamMount, Echo};
 
 /// Everything on one page.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub struct ReportData {
     /// Heading of the page.
     pub title: String,
@@ -33,7 +30,7 @@ pub struct ReportData {
 }
 
 /// The obstacles and the size of the target.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     /// The scenario's name.
     pub name: String,
@@ -53,7 +50,7 @@ pub struct Scene {
 }
 
 /// The car's rectangle. The reference point is the middle of the front axle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyShape {
     /// Body length.
     pub length: f32,
@@ -65,19 +62,8 @@ pub struct BodyShape {
     pub wheelbase: f32,
 }
 
-/// Where a beam starts and points, in the frame of the front axle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct BeamMount {
-    /// Forward of the front axle.
-    pub x: f32,
-    /// Left of the middle.
-    pub y: f32,
-    /// Direction, 0 is straight ahead, positive to the left.
-    pub angle: f32,
-}
-
 /// One task, and how the car did.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// Start pose of the front axle: x, y, heading.
     pub start: [f32; 3],
@@ -112,7 +98,7 @@ impl Drive {
 }
 
 /// How a drive ended.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// Whether the target was touched within the step limit.
     pub reached: bool,
@@ -134,7 +120,7 @@ impl Outcome {
 }
 
 /// One control period of a drive.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
     /// Front axle, metres.
     pub x: f32,
@@ -147,34 +133,13 @@ pub struct Moment {
     /// Length of the move that starts here, metres; 0 at the end.
     pub step: f32,
     /// What the beams read here, in the order of the mounts.
-    pub beams: [BeamReading; BEAMS],
+    pub beams: [Echo; BEAMS],
     /// Whether the move that led here touched an obstacle.
     pub collided: bool,
 }
 
-/// What one beam read.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct BeamReading {
-    /// Metres from the beam's mount; the beam's range where it hit nothing.
-    pub distance: f32,
-    /// What is there.
-    pub hit: Hit,
-}
-
-/// What a beam hit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Hit {
-    /// Nothing within range.
-    Nothing,
-    /// An obstacle or the edge of the room.
-    Wall,
-    /// The target.
-    Target,
-}
-
 /// One generation of a training run. Fitness is minimised.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Generation {
     /// Counted from 0, the random population.
     pub number: u32,

@@ -152,14 +152,16 @@ fn the_car_is_drawn_where_it_is_the_right_way_up() {
         page.browser.run(&format!("window.evosteer.seek({step})"));
         let moment = &fixture::clean().moments[step];
         let back = fixture::BODY.front_overhang - fixture::BODY.length / 2.0;
-        let middle =
-            [moment.x + back * moment.heading.cos(), moment.y + back * moment.heading.sin()]
-                .map(f64::from);
+        let middle = [
+            moment.x + back * libm::cosf(moment.heading),
+            moment.y + back * libm::sinf(moment.heading),
+        ]
+        .map(f64::from);
         let expected =
             [width / 2.0 + (middle[0] - 5.0) * scale, height / 2.0 - (middle[1] - 5.0) * scale];
         let (count, found) = page.pixels_of("body");
         assert!(count > 20, "move {step}: {count} pixels of body");
-        let off = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+        let off = libm::hypot(found[0] - expected[0], found[1] - expected[1]);
         assert!(off < 0.1 * scale, "move {step}: drawn at {found:?}, is at {expected:?}");
     }
 }

@@ -4,8 +4,7 @@
 use std::f32::consts::PI;
 
 use host_trainer::report::data::{
-    BEAMS, BeamMount, BeamReading, BodyShape, Drive, Generation, Hit, Moment, Outcome, ReportData,
-    Scene,
+    BEAMS, BeamMount, BodyShape, Drive, Echo, Generation, Moment, Outcome, ReportData, Scene,
 };
 use host_trainer::report::loops;
 
@@ -138,9 +137,9 @@ pub(crate) fn drive(
             break reached;
         }
         let next = [
-            x + STEP * (heading + phi).cos(),
-            y + STEP * (heading + phi).sin(),
-            heading + STEP / BODY.wheelbase * phi.sin(),
+            x + STEP * libm::cosf(heading + phi),
+            y + STEP * libm::sinf(heading + phi),
+            heading + STEP / BODY.wheelbase * libm::sinf(phi),
         ];
         collided = touches(next);
         // `hold`: the position is kept, the heading still follows.
@@ -164,7 +163,7 @@ fn towards(waypoints: &[[f32; 2]]) -> impl FnMut(usize, [f32; 3]) -> f32 {
             left.pop();
         }
         let [x, y] = left[left.len() - 1];
-        angle((y - pose[1]).atan2(x - pose[0]) - pose[2]).clamp(-1.0, 1.0)
+        angle(libm::atan2f(y - pose[1], x - pose[0]) - pose[2]).clamp(-1.0, 1.0)
     }
 }
 
@@ -176,29 +175,29 @@ pub(crate) fn beams() -> [BeamMount; BEAMS] {
     })
 }
 
-fn read_beams(pose: [f32; 3], goal: [f32; 2]) -> [BeamReading; BEAMS] {
+fn read_beams(pose: [f32; 3], goal: [f32; 2]) -> [Echo; BEAMS] {
     beams().map(|mount| {
-        let (sin, cos) = pose[2].sin_cos();
+        let (sin, cos) = libm::sincosf(pose[2]);
         let from =
             [pose[0] + mount.x * cos - mount.y * sin, pose[1] + mount.x * sin + mount.y * cos];
-        let along = [(pose[2] + mount.angle).cos(), (pose[2] + mount.angle).sin()];
+        let along = [libm::cosf(pose[2] + mount.angle), libm::sinf(pose[2] + mount.angle)];
         // Marching in centimetres is exact enough to look at.
         for centimetre in 0..(RANGE * 100.0) as usize {
             let distance = centimetre as f32 / 100.0;
             let point = [from[0] + along[0] * distance, from[1] + along[1] * distance];
-            if (point[0] - goal[0]).hypot(point[1] - goal[1]) < TARGET {
-                return BeamReading { distance, hit: Hit::Target };
+            if libm::hypotf(point[0] - goal[0], point[1] - goal[1]) < TARGET {
+                return Echo::Target(distance);
             }
             if solid(point) {
-                return BeamReading { distance, hit: Hit::Wall };
+                return Echo::Wall(distance);
             }
         }
-        BeamReading { distance: RANGE, hit: Hit::Nothing }
+        Echo::Nothing
     })
 }
 
 fn touches([x, y, heading]: [f32; 3]) -> bool {
-    let (sin, cos) = heading.sin_cos();
+    let (sin, cos) = libm::sincosf(heading);
     let rear = BODY.front_overhang - BODY.length;
     (0..=20).any(|i| {
         let along = rear + BODY.length * i as f32 / 20.0;
@@ -217,7 +216,7 @@ fn solid([x, y]: [f32; 2]) -> bool {
 }
 
 fn away(pose: [f32; 3], goal: [f32; 2]) -> f32 {
-    (pose[0] - goal[0]).hypot(pose[1] - goal[1])
+    libm::hypotf(pose[0] - goal[0], pose[1] - goal[1])
 }
 
 /// An angle between −π and π.
@@ -238,7 +237,9 @@ fn history() -> Vec<Generation> {
                 best,
                 mean: best + 24_000.0 - 8_000.0 * progress + 900.0 * wobble,
                 worst: 196_000.0 + 4_000.0 * f64::from((number * 53) % 13),
-                collisions: (38.0 * (1.0 - progress).powi(2) - wobble / 3.0).max(0.0).floor(),
+                collisions: (38.0 * (1.0 - progress) * (1.0 - progress) - wobble / 3.0)
+                    .max(0.0)
+                    .floor(),
                 distance: 22.0 - 5.0 * reached + wobble / 10.0,
                 reached: reached as u32,
                 pairs: 5,

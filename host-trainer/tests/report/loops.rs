@@ -21,7 +21,7 @@ fn poses(poses: impl IntoIterator<Item = [f32; 3]>) -> Vec<Moment> {
 fn circle(radius: f32, turn: f32, moves: usize) -> Vec<Moment> {
     poses((0..=moves).map(|k| {
         let angle = k as f32 * turn;
-        [radius * angle.sin(), -radius * angle.cos(), angle]
+        [radius * libm::sinf(angle), -radius * libm::cosf(angle), angle]
     }))
 }
 
@@ -49,7 +49,7 @@ fn the_crossing_of_a_figure_eight_is_not_taken_for_its_period() {
         let turn = 2.0 * PI / 50.0;
         let (left, angle) = ((k / 50) % 2 == 0, (k % 50) as f32 * turn);
         let side = if left { 1.0 } else { -1.0 };
-        [angle.sin(), side * (1.0 - angle.cos()), side * angle]
+        [libm::sinf(angle), side * (1.0 - libm::cosf(angle)), side * angle]
     }));
     assert_eq!(period_of(&eight), Some(100));
 }
@@ -67,12 +67,12 @@ fn a_spiral_and_a_drifting_circle_are_no_loops() {
     let turn = 2.0 * PI / 40.0;
     let spiral = poses((0..=400).map(|k| {
         let (angle, radius) = (k as f32 * turn, 1.0 + k as f32 * 0.005);
-        [radius * angle.sin(), -radius * angle.cos(), angle]
+        [radius * libm::sinf(angle), -radius * libm::cosf(angle), angle]
     }));
     assert_eq!(period_of(&spiral), None);
     let drifting = poses((0..=400).map(|k| {
         let angle = k as f32 * turn;
-        [angle.sin() + k as f32 * 0.005, -angle.cos(), angle]
+        [libm::sinf(angle) + k as f32 * 0.005, -libm::cosf(angle), angle]
     }));
     assert_eq!(period_of(&drifting), None);
 }
@@ -100,7 +100,7 @@ fn a_car_held_by_a_wall_is_stuck_and_one_that_turns_on_the_spot_is_not() {
 fn headings_that_grow_past_a_full_turn_are_compared_as_directions() {
     let wound_up = poses((0..=300).map(|k| {
         let angle = k as f32 * FRAC_PI_2 / 10.0;
-        [angle.sin(), -angle.cos(), angle + 1000.0 * PI]
+        [libm::sinf(angle), -libm::cosf(angle), angle + 1000.0 * PI]
     }));
     assert_eq!(period_of(&wound_up), Some(40));
 }
@@ -109,7 +109,7 @@ fn headings_that_grow_past_a_full_turn_are_compared_as_directions() {
 fn the_approach_before_the_loop_does_not_matter() {
     let drive = fixture::circling();
     // Wheels at 0.3 rad turn the car by d/L · sin φ per move.
-    let lap = 2.0 * PI / (0.1 / 0.3 * 0.3_f32.sin());
+    let lap = 2.0 * PI / (0.1 / 0.3 * libm::sinf(0.3));
     assert_eq!(drive.loop_period, Some(lap.round() as usize));
 }
 

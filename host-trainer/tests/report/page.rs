@@ -1,6 +1,6 @@
 //! The pages as text.
 
-use host_trainer::report::data::ReportData;
+use host_trainer::report::data::{Echo, ReportData};
 use host_trainer::report::page;
 
 use crate::fixture;
@@ -77,7 +77,8 @@ fn numbers_that_are_none_do_not_break_the_page() {
     report.period = f32::NAN;
     report.beam_range = f32::INFINITY;
     for moment in &mut report.drives[0].moments {
-        (moment.x, moment.heading, moment.beams[0].distance) = (f32::NAN, f32::NAN, f32::INFINITY);
+        (moment.x, moment.heading) = (f32::NAN, f32::NAN);
+        (moment.beams[0], moment.beams[1]) = (Echo::Wall(f32::INFINITY), Echo::Nothing);
     }
     let html = page::render(&report);
     let (_, data) = html.split_once("id=\"drives\">").expect("data");

@@ -108,7 +108,7 @@ impl Frame {
 /// 1, 2 or 5 times a power of ten, so that a side has five to twelve marks.
 fn round_step(side: f64) -> f64 {
     let rough = side / 10.0;
-    let decade = 10.0_f64.powi(rough.log10().floor() as i32);
+    let decade = libm::pow(10.0, libm::log10(rough).floor());
     let multiple = [1.0, 2.0, 5.0].into_iter().find(|m| m * decade >= rough * 0.999);
     multiple.unwrap_or(10.0) * decade
 }
@@ -121,7 +121,7 @@ fn ticks(min: f64, size: f64, step: f64) -> impl Iterator<Item = f64> {
 
 /// A mark's number with as many decimals as its step needs.
 fn label(tick: f64, step: f64) -> String {
-    let decimals = (-step.log10().floor()).clamp(0.0, 6.0) as usize;
+    let decimals = (-libm::log10(step).floor()).clamp(0.0, 6.0) as usize;
     let text = format!("{tick:.decimals$}");
     if text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.')) {
         return "0".to_owned();

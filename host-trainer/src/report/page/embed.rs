@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::outcomes::Kind;
-use crate::report::data::{Drive, Hit, Moment, ReportData};
+use crate::report::data::{Drive, Echo, Moment, ReportData};
 
 /// What one in a column of whole numbers stands for: a tenth of a millimetre, or 0.006°.
 const UNIT: f64 = 1e-4;
@@ -45,7 +45,7 @@ struct PackedDrive {
     heading: Vec<i64>,
     steer: Vec<i64>,
     step: Vec<i64>,
-    /// Distances of all beams, moment by moment.
+    /// Distances of all beams, moment by moment; the range where there is nothing.
     beams: Vec<i64>,
     /// What they hit, one digit each: 0 nothing, 1 wall, 2 target.
     hits: String,
@@ -82,10 +82,14 @@ fn pack(drive: &Drive, range: f32) -> PackedDrive {
     let moments = &drive.moments;
     let column = |value: fn(&Moment) -> f32| moments.iter().map(|m| units(value(m))).collect();
     let readings = || moments.iter().flat_map(|m| m.beams);
-    let digit = |hit| match hit {
-        Hit::Nothing => '0',
-        Hit::Wall => '1',
-        Hit::Target => '2',
+    let distance = |echo| match echo {
+        Echo::Nothing => range,
+        Echo::Wall(distance) | Echo::Target(distance) => distance.min(range),
+    };
+    let digit = |echo| match echo {
+        Echo::Nothing => '0',
+        Echo::Wall(_) => '1',
+        Echo::Target(_) => '2',
     };
     let collided = moments.iter().enumerate().filter(|(_, m)| m.collided);
     PackedDrive {
@@ -99,8 +103,8 @@ fn pack(drive: &Drive, range: f32) -> PackedDrive {
         heading: column(|m| m.heading),
         steer: column(|m| m.steer),
         step: column(|m| m.step),
-        beams: readings().map(|b| units(b.distance.min(range))).collect(),
-        hits: readings().map(|b| digit(b.hit)).collect(),
+        beams: readings().map(|echo| units(distance(echo))).collect(),
+        hits: readings().map(digit).collect(),
         collided: collided.map(|(index, _)| index).collect(),
     }
 }
