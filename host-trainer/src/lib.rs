@@ -1,19 +1,27 @@
 //! Simulate, evolve, export: the host half of evosteer.
 
 pub mod blob_file;
+pub mod brain;
+pub mod car;
 pub mod checkpoint;
+pub mod episode;
 pub mod evolve;
 pub mod export;
 pub mod failure;
 pub mod files;
 pub mod fingerprint;
+pub mod fitness;
 pub mod map;
 pub mod output;
+pub mod pairs;
+pub mod problem;
 pub mod report;
 pub mod run_folder;
 pub mod scenario;
 pub mod seed;
 pub mod signals;
+pub mod training;
+pub mod world;
 
 #[cfg(test)]
 mod sample_blob;

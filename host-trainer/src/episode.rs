@@ -1,0 +1,160 @@
+//! One drive: from a start towards a goal, until it is reached, time is up, or a crash ends it.
+
+use crate::brain::Brain;
+use crate::car::{CarModel, SimulatedCar};
+use crate::scenario::{EpisodeSpec, OnCollision, Pair};
+use crate::seed::Stream;
+use crate::world::World;
+use controller_core::control_loop::tick;
+use controller_core::controller::Command;
+use controller_core::motion::Pose;
+use controller_core::observation::{BEAMS, Echo};
+use serde::{Deserialize, Serialize};
+
+/// How a drive went.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// Whether the target was touched within the step limit.
+    pub reached: bool,
+    /// Control periods in which the body touched an obstacle.
+    pub collisions: u32,
+    /// Control periods driven.
+    pub steps: u32,
+    /// Metres driven.
+    pub path_length: f32,
+    /// Metres between front axle and target at the end.
+    pub distance_to_target: f32,
+}
+
+impl Outcome {
+    /// Reached without one collision.
+    pub fn clean(&self) -> bool {
+        self.reached && self.collisions == 0
+    }
+}
+
+/// One control period of a recorded drive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Where the car stood when it looked.
+    pub pose: Pose<f32>,
+    /// What the beams reported then.
+    pub echoes: [Echo; BEAMS],
+    /// What the controller decided.
+    pub command: Command,
+    /// All hidden outputs after deciding.
+    pub hidden: Vec<f32>,
+    /// Whether acting on it ended in a collision.
+    pub collided: bool,
+}
+
+/// A drive, step by step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trace {
+    /// Every control period.
+    pub steps: Vec<Step>,
+    /// Where the car stood at the end; none only before the drive.
+    pub end: Option<Pose<f32>>,
+}
+
+/// Drives one pair.
+///
+/// `random` belongs to this drive alone: it decides offsets, noise and the randomised vehicle.
+pub fn drive(
+    world: &World,
+    model: &CarModel,
+    spec: &EpisodeSpec,
+    pair: &Pair,
+    brain: &mut dyn Brain,
+    random: Stream,
+) -> Outcome {
+    run(world, model, spec, pair, brain, random, |_, _, _, _| ())
+}
+
+/// The same drive, remembered step by step.
+pub fn drive_traced(
+    world: &World,
+    model: &CarModel,
+    spec: &EpisodeSpec,
+    pair: &Pair,
+    brain: &mut dyn Brain,
+    random: Stream,
+) -> (Outcome, Trace) {
+    let mut steps = Vec::new();
+    let mut end = None;
+    let outcome = run(world, model, spec, pair, brain, random, |pose, car, command, brain| {
+        steps.push(Step {
+            pose,
+            echoes: car.reported,
+            command,
+            hidden: brain.hidden(),
+            collided: car.collided,
+        });
+        end = Some(*car.pose());
+    });
+    (outcome, Trace { steps, end })
+}
+
+fn run(
+    world: &World,
+    model: &CarModel,
+    spec: &EpisodeSpec,
+    pair: &Pair,
+    brain: &mut dyn Brain,
+    mut random: Stream,
+    mut remember: impl FnMut(Pose<f32>, &SimulatedCar<'_>, Command, &dyn Brain),
+) -> Outcome {
+    let start = start_pose(world, model, spec, pair, &mut random);
+    let mut car = SimulatedCar::new(world, model, start, pair.goal, random);
+    brain.reset();
+    let mut steps = 0;
+    while steps < spec.step_limit {
+        let before = *car.pose();
+        // A simulated reading is always good and a simulated actuator never refuses; were
+        // either to fail, the car has been told to stop and the drive goes on.
+        let command = tick(&mut car, brain).unwrap_or(Command::STOP);
+        steps += 1;
+        remember(before, &car, command, brain);
+        if car.reached || (car.collided && spec.on_collision == OnCollision::Stop) {
+            break;
+        }
+    }
+    Outcome {
+        reached: car.reached,
+        collisions: car.collisions,
+        steps,
+        path_length: car.path_length,
+        distance_to_target: car.distance_to_target(),
+    }
+}
+
+/// Tries of a random offset before the exact start is used.
+const OFFSET_TRIES: u32 = 32;
+
+/// The pair's start, shifted and turned at random where the scenario says so. A shifted start
+/// that touches an obstacle is drawn again.
+fn start_pose(
+    world: &World,
+    model: &CarModel,
+    spec: &EpisodeSpec,
+    pair: &Pair,
+    random: &mut Stream,
+) -> Pose<f32> {
+    let [x, y, heading] = pair.start;
+    let exact = Pose::new(x, y, heading);
+    let (shift, turn) = (spec.start_offset, spec.start_turn);
+    if shift == 0.0 && turn == 0.0 {
+        return exact;
+    }
+    for _ in 0..OFFSET_TRIES {
+        let pose = Pose::new(
+            x + random.within(-shift, shift),
+            y + random.within(-shift, shift),
+            heading + random.within(-turn, turn),
+        );
+        if !world.blocks(model.body(), &pose) {
+            return pose;
+        }
+    }
+    exact
+}

@@ -1,0 +1,109 @@
+//! Drawing tasks: a start pose and a goal that are clear of obstacles and hang together.
+
+use crate::car::body_of;
+use crate::scenario::{Pair, PairSource, Scenario};
+use crate::seed::{Purpose, RunSeed, Stream};
+use crate::world::free_space::FreeSpace;
+use crate::world::{World, distance};
+use controller_core::geometry::Body;
+use controller_core::motion::Pose;
+use std::f32::consts::PI;
+use std::fmt;
+
+/// Draws before giving up on one pair.
+const TRIES: u32 = 20_000;
+
+/// Draws start/goal pairs of one scenario.
+#[derive(Debug)]
+pub struct PairSampler<'a> {
+    world: &'a World,
+    space: FreeSpace,
+    body: Body<f32>,
+    min_distance: f32,
+}
+
+/// No pair was found in many tries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoPair {
+    /// The distance that was asked for.
+    pub min_distance: f32,
+    /// How many tries there were.
+    pub tries: u32,
+}
+
+impl fmt::Display for NoPair {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "no start and goal at least {} m apart, clear of obstacles and with a way between \
+             them, found in {} tries: the world is too full or too small",
+            self.min_distance, self.tries
+        )
+    }
+}
+
+impl std::error::Error for NoPair {}
+
+impl<'a> PairSampler<'a> {
+    /// A sampler for this scenario's world and car.
+    pub fn new(world: &'a World, scenario: &Scenario) -> Self {
+        let body = body_of(&scenario.vehicle);
+        let space = FreeSpace::new(world, body.half_width);
+        Self { world, space, body, min_distance: scenario.pairs.min_distance }
+    }
+
+    /// The pairs that training drives in this generation.
+    ///
+    /// # Errors
+    ///
+    /// A world in which no pair is found.
+    pub fn training(
+        &self,
+        scenario: &Scenario,
+        seed: RunSeed,
+        generation: u32,
+    ) -> Result<Vec<Pair>, NoPair> {
+        match &scenario.pairs.source {
+            PairSource::Listed(pairs) => Ok(pairs.clone()),
+            PairSource::Drawn { count, resample } => {
+                let generation = if *resample { generation } else { 0 };
+                self.draw(*count, |index| seed.stream(Purpose::TrainingPairs, generation, index))
+            }
+        }
+    }
+
+    /// Pairs that no training has ever seen: their random numbers serve no other purpose.
+    ///
+    /// # Errors
+    ///
+    /// A world in which no pair is found.
+    pub fn unseen(&self, seed: RunSeed, count: u32) -> Result<Vec<Pair>, NoPair> {
+        self.draw(count, |index| seed.stream(Purpose::EvaluationPairs, 0, index))
+    }
+
+    fn draw(&self, count: u32, stream: impl Fn(u32) -> Stream) -> Result<Vec<Pair>, NoPair> {
+        (0..count).map(|index| self.pair(&mut stream(index))).collect()
+    }
+
+    /// One pair: body and target clear of obstacles, any heading, far enough apart, with a free
+    /// way at least as wide as the car.
+    fn pair(&self, random: &mut Stream) -> Result<Pair, NoPair> {
+        let (min, max) = (self.world.bounds.min, self.world.bounds.max);
+        let radius = self.world.target_radius;
+        for _ in 0..TRIES {
+            let x = random.within(min[0], max[0]);
+            let y = random.within(min[1], max[1]);
+            let heading = random.within(-PI, PI);
+            let goal = [random.within(min[0], max[0]), random.within(min[1], max[1])];
+            let pair = Pair { start: [x, y, heading], goal };
+            if distance([x, y], goal) >= self.min_distance
+                && !self.world.blocks(&self.body, &Pose::new(x, y, heading))
+                && !self.world.blocks_disc(goal, radius)
+                && self.space.connects([x, y], goal, radius)
+            {
+                return Ok(pair);
+            }
+        }
+        Err(NoPair { min_distance: self.min_distance, tries: TRIES })
+    }
+}

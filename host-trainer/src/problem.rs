@@ -1,0 +1,164 @@
+//! What is to be solved: a scenario with its world and car built, ready to judge genomes.
+
+use crate::brain::{self, Brain, NotBuiltIn};
+use crate::car::{CarModel, scaling_of};
+use crate::episode::{self, Outcome, Trace};
+use crate::failure::Failure;
+use crate::scenario::{Pair, Scenario, StepLength};
+use crate::seed::{Purpose, RunSeed, Stream};
+use crate::world::World;
+use controller_core::activation::ActivationKind;
+use controller_core::blob::Header;
+use controller_core::controller::Scaling;
+use controller_core::network::Topology;
+use controller_core::observation::INPUTS;
+
+/// A scenario, built.
+#[derive(Debug)]
+pub struct Problem {
+    /// What it was built from.
+    pub scenario: Scenario,
+    /// Its obstacles.
+    pub world: World,
+    model: CarModel,
+    scaling: Scaling,
+    topology: Topology,
+    activation: ActivationKind,
+}
+
+impl Problem {
+    /// Builds the scenario's world and car and checks that its listed tasks are possible.
+    ///
+    /// # Errors
+    ///
+    /// A map that cannot be read, or a listed pair that cannot work.
+    pub fn new(scenario: Scenario) -> Result<Self, Failure> {
+        let world = World::new(&scenario)?;
+        Ok(Self {
+            world,
+            model: CarModel::new(&scenario),
+            scaling: scaling_of(&scenario),
+            topology: topology_of(&scenario),
+            activation: scenario.network.activation,
+            scenario,
+        })
+    }
+
+    /// The network that is searched for.
+    pub fn topology(&self) -> Topology {
+        self.topology
+    }
+
+    /// How the network's inputs and outputs relate to the car.
+    pub fn scaling(&self) -> Scaling {
+        self.scaling
+    }
+
+    /// The controller over a genome.
+    ///
+    /// # Errors
+    ///
+    /// A genome of another length.
+    pub fn brain<'a>(&self, genome: &'a [f32]) -> Result<Box<dyn Brain + 'a>, NotBuiltIn> {
+        brain::build(self.topology, self.activation, self.scaling, genome)
+    }
+
+    /// Drives every pair with one controller. Drive `i` gets the random numbers of `place(i)`.
+    pub fn drive_all(
+        &self,
+        brain: &mut dyn Brain,
+        pairs: &[Pair],
+        place: impl Fn(u32) -> Stream,
+    ) -> Vec<Outcome> {
+        let drive = |(index, pair): (u32, &Pair)| {
+            let spec = &self.scenario.episode;
+            episode::drive(&self.world, &self.model, spec, pair, brain, place(index))
+        };
+        (0..).zip(pairs).map(drive).collect()
+    }
+
+    /// Drives one pair and remembers every step.
+    pub fn drive_traced(
+        &self,
+        brain: &mut dyn Brain,
+        pair: &Pair,
+        random: Stream,
+    ) -> (Outcome, Trace) {
+        let spec = &self.scenario.episode;
+        episode::drive_traced(&self.world, &self.model, spec, pair, brain, random)
+    }
+
+    /// Whether the same genome always costs the same: nothing about a drive is random and every
+    /// generation drives the same pairs.
+    pub fn is_stationary(&self) -> bool {
+        use crate::scenario::{PairSource, RandomiseSpec};
+        let Scenario { sensors, episode, pairs, .. } = &self.scenario;
+        let same_pairs = !matches!(pairs.source, PairSource::Drawn { resample: true, .. });
+        let fixed_start = episode.start_offset == 0.0 && episode.start_turn == 0.0;
+        let fixed_car = episode.randomise == RandomiseSpec::default();
+        let exact = sensors.noise == 0.0 && sensors.dropout == 0.0;
+        same_pairs && fixed_start && fixed_car && exact
+    }
+}
+
+/// The random numbers of drive `index` in one generation, the same for every individual: all
+/// meet the same noise and the same randomised cars, so that selection compares controllers,
+/// not luck.
+pub fn training_drive(seed: RunSeed, generation: u32, index: u32) -> Stream {
+    seed.stream(Purpose::Episode, generation, index)
+}
+
+/// The scenario's network.
+pub fn topology_of(scenario: &Scenario) -> Topology {
+    let outputs = match scenario.vehicle.step {
+        StepLength::Constant(_) => 1,
+        StepLength::Variable { .. } => 2,
+    };
+    Topology {
+        inputs: INPUTS as u8,
+        hidden: scenario.network.hidden,
+        outputs,
+        recurrence: scenario.network.recurrence,
+        biases: scenario.network.biases,
+    }
+}
+
+/// Puts the car that a champion was trained with into a scenario: a controller knows its own
+/// sensors and limits wherever it drives. Returns what changed, in words.
+pub fn adopt_car(scenario: &mut Scenario, header: &Header) -> Vec<String> {
+    let mut changes = Vec::new();
+    let mut note = |what: &str, was: String, is: String| {
+        if was != is {
+            changes.push(format!("{what} {is} (the scenario says {was})"));
+        }
+    };
+    let Scaling { encoding, range, steer_limit, step_lower, step_upper } = header.scaling;
+    let step = if header.topology.outputs == 2 {
+        StepLength::Variable { lower: step_lower, upper: step_upper }
+    } else {
+        StepLength::Constant(step_upper)
+    };
+    let (vehicle, sensors) = (&mut scenario.vehicle, &mut scenario.sensors);
+    note("beam range", format!("{} m", sensors.range), format!("{range} m"));
+    note("steer limit", degrees(vehicle.steer_limit), degrees(steer_limit));
+    note("step", format!("{:?} m", vehicle.step), format!("{step:?} m"));
+    note("wheelbase", format!("{} m", vehicle.wheelbase), format!("{} m", header.wheelbase));
+    note("period", format!("{} s", scenario.episode.period), format!("{} s", header.period));
+    note("beams", format!("{:?}", sensors.beams), format!("{:?}", header.beams));
+    sensors.range = range;
+    sensors.encoding = encoding;
+    sensors.beams = header.beams;
+    vehicle.steer_limit = steer_limit;
+    vehicle.step = step;
+    vehicle.wheelbase = header.wheelbase;
+    scenario.episode.period = header.period;
+    scenario.network.hidden = header.topology.hidden;
+    scenario.network.recurrence = header.topology.recurrence;
+    scenario.network.biases = header.topology.biases;
+    scenario.network.activation = header.activation;
+    changes
+}
+
+fn degrees(radians: f32) -> String {
+    format!("{:.1}°", f64::from(radians) * 180.0 / std::f64::consts::PI)
+}
