@@ -13,7 +13,11 @@ mod number;
 mod polygon;
 mod preset;
 mod problem;
+#[cfg(test)]
+mod properties;
 mod reader;
+#[cfg(test)]
+mod refusals;
 mod schema;
 mod shapes;
 pub(crate) mod shipped;

@@ -32,9 +32,9 @@ impl Bounds {
         (self.min[0]..=self.max[0]).contains(&x) && (self.min[1]..=self.max[1]).contains(&y)
     }
 
-    /// Whether the inside has a point in common with a rectangle.
+    /// Whether there is a point in common with a rectangle, edges included.
     fn overlaps(&self, min: [f32; 2], max: [f32; 2]) -> bool {
-        (0..2).all(|axis| min[axis] < self.max[axis] && max[axis] > self.min[axis])
+        (0..2).all(|axis| min[axis] <= self.max[axis] && max[axis] >= self.min[axis])
     }
 }
 
@@ -54,7 +54,9 @@ fn room(scenario: &Scenario, found: &mut Vec<Complaint>) {
     let [width, height] = scenario.world.bounds.size();
     let radius = scenario.world.target_radius;
     if found.is_empty() && 2.0 * radius > width.min(height) {
-        let detail = format!("found a radius of {radius} m in a room of {width} m × {height} m");
+        let detail = format!(
+            "found a radius of {radius} m in a room of {width} m × {height} m, expected a target that fits"
+        );
         let title = "the target is larger than the room";
         found.push(Complaint::new("world.target_radius_m", title, detail).or_at("world.max_m"));
     }
@@ -86,8 +88,7 @@ fn obstacles(world: &WorldSpec, found: &mut Vec<Complaint>) {
         must_overlap(format!("world.circles[{index}]"), low, high);
     }
     for (index, wall) in world.walls.iter().enumerate() {
-        // Half a millimetre more, so that a sheet on the room's edge lies in the room.
-        let (low, high) = extent(&wall.points, wall.thickness / 2.0 + 0.0005);
+        let (low, high) = extent(&wall.points, wall.thickness / 2.0);
         must_overlap(format!("world.walls[{index}]"), low, high);
     }
     let corners: usize = world.polygons.iter().map(Vec::len).sum::<usize>()
@@ -207,7 +208,7 @@ fn pair_in_room(scenario: &Scenario, index: usize, pair: &Pair, found: &mut Vec<
     if distance <= radius {
         let key = format!("pairs.list[{index}].goal");
         let detail = format!(
-            "found {distance} m between car and goal, expected more than the target's radius, {radius} m"
+            "found {distance:.2} m between car and goal, expected more than the target's radius, {radius} m"
         );
         found.push(Complaint::new(key, "the target is reached before the car moves", detail));
     }
@@ -215,7 +216,9 @@ fn pair_in_room(scenario: &Scenario, index: usize, pair: &Pair, found: &mut Vec<
 
 /// A refused setting of the search; each number alone was in its range already.
 fn search(error: &crate::evolve::ga::SettingError) -> Complaint {
-    let detail = format!("found {}, expected {}", error.found, error.expected);
+    // Sums of shares end in digits that nobody wrote.
+    let found = (error.found * 1e4).round() / 1e4;
+    let detail = format!("found {found}, expected {}", error.expected);
     let title = "the settings of the genetic algorithm do not fit together";
     match error.setting {
         "shares" => {

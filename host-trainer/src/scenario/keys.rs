@@ -18,16 +18,20 @@ pub struct Key {
 
 /// Every setting of a scenario file, in the order of the file.
 pub fn all_keys() -> Vec<Key> {
+    keys_of(&mut Preset::default().scenario())
+}
+
+/// The keys of a table that stands for itself; the record stays as it is.
+pub(super) fn keys_of(record: &mut impl Record) -> Vec<Key> {
     let mut keys = Keys::default();
-    Preset::default().scenario().visit(&mut keys);
+    record.visit(&mut keys);
     keys.found
 }
 
-/// The keys of a table that stands for itself.
-pub(super) fn keys_of(mut record: impl Record) -> Vec<String> {
-    let mut keys = Keys::default();
-    record.visit(&mut keys);
-    keys.found.into_iter().map(|key| key.path).collect()
+/// The keys of a table as a person would write it: `{ start, goal }`.
+pub(super) fn braces(record: &mut impl Record) -> String {
+    let keys: Vec<String> = keys_of(record).into_iter().map(|key| key.path).collect();
+    format!("{{ {} }}", keys.join(", "))
 }
 
 #[derive(Default)]

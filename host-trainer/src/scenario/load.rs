@@ -121,13 +121,21 @@ fn parse<'a>(documents: &'a [Document<'a>]) -> (Tables<'a>, Vec<Problem>) {
     let mut tables = Vec::new();
     for (document, Document { text, .. }) in documents.iter().enumerate() {
         let (table, errors) = DeTable::parse_recoverable(text);
+        if document > 0 && table.get_ref().is_empty() && errors.is_empty() {
+            problems.push(Problem {
+                place: Some(Place { document, span: 0..0 }),
+                title: "no setting".to_owned(),
+                detail: "expected key=value, such as episode.step_limit=400".to_owned(),
+                help: None,
+            });
+        }
         tables.push(table);
         // What follows the first syntax error is usually an echo of it.
         if let Some(error) = errors.first() {
             let span = error.span().unwrap_or(text.len()..text.len());
             problems.push(Problem {
                 place: Some(Place { document, span }),
-                title: "not TOML".to_owned(),
+                title: "not valid TOML".to_owned(),
                 detail: error.message().to_owned(),
                 help: None,
             });

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
-use super::keys::{all_keys, keys_of};
+use super::keys::{all_keys, braces, keys_of};
 use super::problem::{Place, Problem};
 use super::schema::{Codec, Record, Visit};
 use super::value::{Found, Path};
@@ -36,7 +36,7 @@ pub(super) fn read_record<R: Record>(
     problems: &mut Vec<Problem>,
 ) -> Option<R> {
     let Some(table) = found.table() else {
-        found.wrong_type(&format!("a table {{ {} }}", keys_of(blank).join(", ")), problems);
+        found.wrong_type(&format!("a table {}", braces(&mut blank)), problems);
         return None;
     };
     let before = problems.len();
@@ -58,14 +58,15 @@ impl Reader<'_, '_> {
         record.visit(&mut self);
         self.refuse_unknown_keys();
         for key in R::REQUIRED {
-            if !self.layers.iter().any(|layer| layer.table.contains_key(*key))
-                && let Some(layer) = self.layers.first()
-            {
-                let place = Place { document: layer.document, span: layer.span.clone() };
-                let title = format!("`{}` is missing", self.name(key));
-                let detail = format!("expected the key {key} in this table");
-                self.problems.push(Problem { place: Some(place), title, detail, help: None });
-            }
+            let written = self.layers.iter().any(|layer| layer.table.contains_key(*key));
+            let (false, Some(layer)) = (written, self.layers.first()) else { continue };
+            let place = Place { document: layer.document, span: layer.span.clone() };
+            let title = format!("`{}` is missing", self.name(key));
+            let keys = keys_of(record);
+            let known = keys.iter().find(|known| known.path == *key);
+            let detail = known.map(|known| format!("expected {key} = {}", known.expected));
+            let detail = detail.unwrap_or_default();
+            self.problems.push(Problem { place: Some(place), title, detail, help: None });
         }
     }
 

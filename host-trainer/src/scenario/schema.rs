@@ -178,8 +178,7 @@ impl Record for BeamMount {
         let offset = Number::metres(-100.0, 100.0);
         v.value("x_m", &mut self.x, offset, "ahead of the front axle");
         v.value("y_m", &mut self.y, offset, "left of the middle line");
-        let angle = Number::degrees(-180.0, 180.0);
-        v.value("angle_deg", &mut self.angle, angle, "left of straight ahead");
+        v.value("angle_deg", &mut self.angle, shapes::BEAM_ANGLE, "left of straight ahead");
     }
 }
 
@@ -283,7 +282,12 @@ impl Record for GaSpec {
         v.value("ranking_share", &mut self.ranking_share, SHARE, "P3, the best, copied");
         v.value("random_share", &mut self.random_share, SHARE, "P4, copied at random");
         v.value("selection", &mut self.selection, SELECTION, "of P1 and P2");
-        v.value("mutation_rate", &mut self.mutation_rate, SHARE, "about half of it changes");
+        v.value(
+            "mutation_rate",
+            &mut self.mutation_rate,
+            SHARE,
+            "toolbox rate: half of it changes on average",
+        );
         v.value("mutation", &mut self.mutation, MUTATION, "what a changed gene becomes");
     }
 }

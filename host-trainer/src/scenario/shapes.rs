@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use super::keys::keys_of;
+use super::keys::braces;
 use super::number::Number;
 use super::problem::Problem;
 use super::reader::read_record;
@@ -30,9 +30,17 @@ impl<T, C: Codec<T>> Codec<Vec<T>> for List<C> {
             found.refuse("is too long", detail, problems);
             return None;
         }
-        // Every item is read, so that all bad ones are reported.
-        let read: Vec<Option<T>> = items.map(|item| self.0.read(&item, problems)).collect();
-        read.into_iter().collect()
+        let mut values = Vec::with_capacity(items.len());
+        let mut bad = 0;
+        for item in items {
+            match self.0.read(&item, problems) {
+                Some(value) => values.push(value),
+                // Several bad items are worth telling; a whole list of them is one mistake.
+                None if bad == 2 => return None,
+                None => bad += 1,
+            }
+        }
+        (bad == 0).then_some(values)
     }
 
     fn write(&self, value: &Vec<T>) -> Option<String> {
@@ -82,7 +90,7 @@ impl<T: Record + Clone + Default> Codec<T> for Entry<T> {
     }
 
     fn expected(&self) -> String {
-        format!("{{ {} }}", keys_of(T::default()).join(", "))
+        braces(&mut T::default())
     }
 }
 
@@ -300,16 +308,42 @@ fn repeated(found: &Found<'_>, index: usize, [x, y]: [f32; 2], problems: &mut Ve
     found.refuse("has a piece of length zero", detail, problems);
 }
 
+/// A beam's mount; one at the middle of the front axle is its angle alone.
+struct Mount;
+
+impl Codec<BeamMount> for Mount {
+    fn read(&self, found: &Found<'_>, problems: &mut Vec<Problem>) -> Option<BeamMount> {
+        if found.table().is_some() {
+            return Entry::<BeamMount>::new().read(found, problems);
+        }
+        let angle = BEAM_ANGLE.read(found, problems)?;
+        Some(BeamMount { angle, ..BeamMount::default() })
+    }
+
+    fn write(&self, value: &BeamMount) -> Option<String> {
+        if *value == (BeamMount { angle: value.angle, ..BeamMount::default() }) {
+            return BEAM_ANGLE.write(&value.angle);
+        }
+        Entry::<BeamMount>::new().write(value)
+    }
+
+    fn expected(&self) -> String {
+        format!("angles in degrees or {}", Entry::<BeamMount>::new().expected())
+    }
+}
+
+/// Where a beam may point.
+pub(super) const BEAM_ANGLE: Number = Number::degrees(-180.0, 180.0);
+
 /// Exactly five beam mounts, from the rightmost to the leftmost.
 pub(super) struct Beams;
 
 impl Codec<[BeamMount; BEAMS]> for Beams {
     fn read(&self, found: &Found<'_>, problems: &mut Vec<Problem>) -> Option<[BeamMount; BEAMS]> {
         let items: [Found<'_>; BEAMS] = found.exactly(&self.expected(), problems)?;
-        let read = items.map(|item| Entry::<BeamMount>::new().read(&item, problems));
         let mut beams = [BeamMount::default(); BEAMS];
-        for (slot, beam) in beams.iter_mut().zip(read) {
-            *slot = beam?;
+        for (slot, item) in beams.iter_mut().zip(&items) {
+            *slot = Mount.read(item, problems)?;
         }
         if let Some(index) = beams.windows(2).position(|pair| pair[0].angle > pair[1].angle) {
             let detail = format!(
@@ -323,10 +357,12 @@ impl Codec<[BeamMount; BEAMS]> for Beams {
     }
 
     fn write(&self, value: &[BeamMount; BEAMS]) -> Option<String> {
-        List(Entry::<BeamMount>::new()).write(&value.to_vec())
+        let beams: Option<Vec<String>> = value.iter().map(|beam| Mount.write(beam)).collect();
+        let one_line = format!("[{}]", beams?.join(", "));
+        Some(if one_line.contains('{') { one_line.replace("}, ", "},\n    ") } else { one_line })
     }
 
     fn expected(&self) -> String {
-        format!("{BEAMS} beams {{ x_m, y_m, angle_deg }}")
+        format!("{BEAMS} {}", Mount.expected())
     }
 }

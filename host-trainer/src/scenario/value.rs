@@ -78,7 +78,7 @@ impl<'a> Found<'a> {
     }
 
     pub(super) fn wrong_type(&self, expected: &str, problems: &mut Vec<Problem>) {
-        let detail = format!("found {}, expected {expected}", self.kind());
+        let detail = format!("found {}, expected {expected}", self.named());
         self.refuse("has the wrong type", detail, problems);
     }
 
@@ -97,16 +97,26 @@ impl<'a> Found<'a> {
         Place { document: self.document, span: self.node.span() }
     }
 
-    /// The value as a person would say it, without its content.
+    /// The value with its type: "the text `many`".
+    fn named(&self) -> String {
+        let article = match self.node.get_ref() {
+            DeValue::String(_) => "the text ",
+            DeValue::Integer(_) => "the whole number ",
+            DeValue::Float(_) => "the number ",
+            _ => "",
+        };
+        format!("{article}{}", self.shown())
+    }
+
+    /// The value's type, for those whose content is no help.
     fn kind(&self) -> &'static str {
         match self.node.get_ref() {
-            DeValue::String(_) => "text",
-            DeValue::Integer(_) => "a whole number",
-            DeValue::Float(_) => "a number",
-            DeValue::Boolean(_) => "true or false",
             DeValue::Datetime(_) => "a date or time",
             DeValue::Array(_) => "a list",
             DeValue::Table(_) => "a table",
+            DeValue::String(_) | DeValue::Integer(_) | DeValue::Float(_) | DeValue::Boolean(_) => {
+                "a value"
+            }
         }
     }
 

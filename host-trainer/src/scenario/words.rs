@@ -388,17 +388,17 @@ pub(super) fn nearest<'a>(found: &str, words: impl Iterator<Item = &'a str>) -> 
         return None;
     }
     let likeness = |word: &str| {
-        // `width` is meant as `width_m`, however short it is beside the unit.
-        let stem = word.starts_with(found) || found.starts_with(word);
-        if stem && found.len() >= 3 {
-            0.99
-        } else {
-            strsim::normalized_damerau_levenshtein(found, word)
-        }
+        let likeness = strsim::normalized_damerau_levenshtein(found, word);
+        // `width` is meant as `width_m`, and `steer_limit` as `steer_limit_deg`.
+        let unfinished = found.len() >= 3 && word.starts_with(found);
+        if unfinished { 0.9 + likeness / 10.0 } else { likeness }
     };
-    words
-        .map(|word| (likeness(word), word))
-        .filter(|(likeness, _)| *likeness >= 0.6)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, word)| word)
+    let mut best = (0.6, None);
+    for word in words {
+        let likeness = likeness(word);
+        if likeness >= best.0 && (best.1.is_none() || likeness > best.0) {
+            best = (likeness, Some(word));
+        }
+    }
+    best.1
 }
