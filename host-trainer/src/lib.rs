@@ -4,6 +4,7 @@ pub mod blob_file;
 pub mod brain;
 pub mod car;
 pub mod checkpoint;
+pub mod commands;
 pub mod episode;
 pub mod evolve;
 pub mod export;

@@ -10,6 +10,8 @@
 //! dropped in silence and the work goes on; a full disk is a failure, reported by
 //! [`Output::finish`] when the work is safe.
 
+#[cfg(test)]
+mod page;
 pub mod progress;
 mod stream;
 
@@ -18,6 +20,8 @@ use std::io::{IsTerminal, Write};
 
 use serde::Serialize;
 
+#[cfg(test)]
+pub(crate) use page::Page;
 pub use progress::Progress;
 use stream::Stream;
 

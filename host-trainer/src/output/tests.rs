@@ -1,27 +1,6 @@
 use std::io;
-use std::sync::{Arc, Mutex};
 
 use super::*;
-
-/// Memory that the test keeps a hand on.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Page(Arc<Mutex<Vec<u8>>>);
-
-impl Page {
-    pub(super) fn text(&self) -> String {
-        String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
-    }
-}
-
-impl Write for Page {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.lock().unwrap().write(bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
 
 fn say_everything(output: &mut Output) {
     output.line("trained");

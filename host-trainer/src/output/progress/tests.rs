@@ -1,5 +1,5 @@
-use super::super::tests::Page;
 use super::*;
+use crate::output::Page;
 
 fn row(generation: u32) -> MetricsRow {
     MetricsRow {
