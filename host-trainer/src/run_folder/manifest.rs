@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 use super::RunFolder;
 use crate::failure::Failure;
+use crate::fingerprint::sha256;
 
 /// `manifest.toml`: settings, seed, versions and fingerprints. No times and no host names,
 /// so that equal runs have equal manifests.
@@ -63,7 +63,7 @@ impl Input {
     /// Input/output, naming the file.
     pub fn of_file(path: &Path) -> Result<Self, Failure> {
         let bytes = fs::read(path).map_err(|cause| Failure::io("read", path, &cause))?;
-        Ok(Self { path: path.to_owned(), sha256: sha256_hex(&bytes) })
+        Ok(Self { path: path.to_owned(), sha256: sha256(&bytes) })
     }
 }
 
@@ -180,17 +180,12 @@ fn position(bytes: &[u8], offset: usize) -> (usize, usize) {
 }
 
 fn fingerprint<S: Serialize>(scenario: &S) -> Result<String, Failure> {
-    Ok(sha256_hex(to_toml(scenario)?.as_bytes()))
+    Ok(sha256(to_toml(scenario)?.as_bytes()))
 }
 
 fn to_toml<T: Serialize>(value: &T) -> Result<String, Failure> {
     toml::to_string(value)
         .map_err(|error| Failure::bad_input(format!("cannot be written as TOML: {error}")))
-}
-
-/// SHA-256 as `sha256sum` prints it.
-pub fn sha256_hex(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// A 64-bit number as decimal text.

@@ -129,3 +129,20 @@ fn the_help_says_what_is_accepted() {
     let mut command = InspectArgs::augment_args(Command::new("inspect"));
     insta::assert_snapshot!(command.render_long_help());
 }
+
+#[test]
+fn every_golden_blob_is_accepted_and_computes_its_recorded_bits_here() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../controller-core/tests/golden/v1");
+    let mut seen = 0;
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "blob") {
+            continue;
+        }
+        let (text, result) = inspect(&fs::read(&path).unwrap(), false);
+        assert_eq!(result, Ok(()), "{}", path.display());
+        assert!(text.contains("recorded; passed: "), "{}\n{text}", path.display());
+        seen += 1;
+    }
+    assert!(seen >= 7, "{seen} golden blobs");
+}
