@@ -106,6 +106,11 @@ impl<'a, R: Recurrence, A: Activation, const H: usize, const O: usize> Controlle
         &self.outputs
     }
 
+    /// The network's outputs for any inputs and memory, without a step of the controller.
+    pub fn outputs_for(&self, inputs: &[f32; INPUTS], mut state: State<f32, H>) -> [f32; O] {
+        self.network.step(self.activation, &mut state, inputs)
+    }
+
     /// How inputs and outputs relate to the car.
     pub fn scaling(&self) -> &Scaling {
         &self.scaling

@@ -8,8 +8,9 @@ use controller_core::activation::ActivationKind;
 use controller_core::control_loop::Decide;
 use controller_core::controller::{Controller, Scaling};
 use controller_core::network::{
-    Elman, Feedforward, Network, Recurrence, RecurrenceKind, SelfLoop, Topology,
+    Elman, Feedforward, Network, Recurrence, RecurrenceKind, SelfLoop, State, Topology,
 };
+use controller_core::observation::INPUTS;
 use std::fmt;
 
 /// A controller of any size.
@@ -19,6 +20,10 @@ pub trait Brain: Decide {
 
     /// All hidden outputs of the last step, first layer then second.
     fn hidden(&self) -> Vec<f32>;
+
+    /// The network's outputs for any inputs and hidden outputs of the step before, in the order
+    /// of [`Self::hidden`]; none if there are not as many. The brain itself does not change.
+    fn outputs(&self, inputs: &[f32; INPUTS], hidden: &[f32]) -> Option<Vec<f32>>;
 }
 
 impl<R: Recurrence, const H: usize, const O: usize> Brain
@@ -31,6 +36,12 @@ impl<R: Recurrence, const H: usize, const O: usize> Brain
     fn hidden(&self) -> Vec<f32> {
         let state = self.state();
         [state.first, state.second].concat()
+    }
+
+    fn outputs(&self, inputs: &[f32; INPUTS], hidden: &[f32]) -> Option<Vec<f32>> {
+        let (first, second) = hidden.split_first_chunk()?;
+        let state = State { first: *first, second: *second.as_array()? };
+        Some(self.outputs_for(inputs, state).to_vec())
     }
 }
 

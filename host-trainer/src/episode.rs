@@ -42,6 +42,8 @@ pub struct Step {
     pub echoes: [Echo; BEAMS],
     /// What the controller decided.
     pub command: Command,
+    /// What the car did, after dead time, servo and stops.
+    pub done: Command,
     /// All hidden outputs after deciding.
     pub hidden: Vec<f32>,
     /// Whether acting on it ended in a collision.
@@ -53,8 +55,17 @@ pub struct Step {
 pub struct Trace {
     /// Every control period.
     pub steps: Vec<Step>,
-    /// Where the car stood at the end; none only before the drive.
-    pub end: Option<Pose<f32>>,
+    /// The end; none only before the drive.
+    pub end: Option<End>,
+}
+
+/// Where a drive ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End {
+    /// Where the car stood.
+    pub pose: Pose<f32>,
+    /// What an exact sensor would have seen from there.
+    pub echoes: [Echo; BEAMS],
 }
 
 /// Drives one pair.
@@ -87,10 +98,11 @@ pub fn drive_traced(
             pose,
             echoes: car.reported,
             command,
+            done: car.done,
             hidden: brain.hidden(),
             collided: car.collided,
         });
-        end = Some(*car.pose());
+        end = Some(End { pose: *car.pose(), echoes: car.echoes() });
     });
     (outcome, Trace { steps, end })
 }

@@ -11,7 +11,7 @@ use controller_core::activation::ActivationKind;
 use controller_core::blob::Header;
 use controller_core::controller::Scaling;
 use controller_core::network::Topology;
-use controller_core::observation::INPUTS;
+use controller_core::observation::{BEAMS, BeamMount, INPUTS};
 
 /// A scenario, built.
 #[derive(Debug)]
@@ -27,11 +27,11 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Builds the scenario's world and car and checks that its listed tasks are possible.
+    /// Builds the scenario's world and car.
     ///
     /// # Errors
     ///
-    /// A map that cannot be read, or a listed pair that cannot work.
+    /// A map that cannot be read.
     pub fn new(scenario: Scenario) -> Result<Self, Failure> {
         let world = World::new(&scenario)?;
         Ok(Self {
@@ -108,6 +108,11 @@ pub fn training_drive(seed: RunSeed, generation: u32, index: u32) -> Stream {
     seed.stream(Purpose::Episode, generation, index)
 }
 
+/// The random numbers of drive `index` of an evaluation.
+pub fn evaluation_drive(seed: RunSeed, index: u32) -> Stream {
+    seed.stream(Purpose::EvaluationDrive, 0, index)
+}
+
 /// The scenario's network.
 pub fn topology_of(scenario: &Scenario) -> Topology {
     let outputs = match scenario.vehicle.step {
@@ -141,10 +146,10 @@ pub fn adopt_car(scenario: &mut Scenario, header: &Header) -> Vec<String> {
     let (vehicle, sensors) = (&mut scenario.vehicle, &mut scenario.sensors);
     note("beam range", format!("{} m", sensors.range), format!("{range} m"));
     note("steer limit", degrees(vehicle.steer_limit), degrees(steer_limit));
-    note("step", format!("{:?} m", vehicle.step), format!("{step:?} m"));
+    note("step", vehicle.step.to_string(), step.to_string());
     note("wheelbase", format!("{} m", vehicle.wheelbase), format!("{} m", header.wheelbase));
     note("period", format!("{} s", scenario.episode.period), format!("{} s", header.period));
-    note("beams", format!("{:?}", sensors.beams), format!("{:?}", header.beams));
+    note("beam mounts", mounts(&sensors.beams), mounts(&header.beams));
     sensors.range = range;
     sensors.encoding = encoding;
     sensors.beams = header.beams;
@@ -157,6 +162,11 @@ pub fn adopt_car(scenario: &mut Scenario, header: &Header) -> Vec<String> {
     scenario.network.biases = header.topology.biases;
     scenario.network.activation = header.activation;
     changes
+}
+
+fn mounts(beams: &[BeamMount; BEAMS]) -> String {
+    let mounts = beams.map(|BeamMount { x, y, angle }| format!("{x} {y} {}", degrees(angle)));
+    mounts.join(", ")
 }
 
 fn degrees(radians: f32) -> String {

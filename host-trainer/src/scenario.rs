@@ -174,6 +174,15 @@ pub enum StepLength {
     },
 }
 
+impl std::fmt::Display for StepLength {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Constant(step) => write!(f, "{step} m"),
+            Self::Variable { lower, upper } => write!(f, "{lower} to {upper} m"),
+        }
+    }
+}
+
 /// The beams and how they become the seven inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SensorSpec {

@@ -48,17 +48,23 @@ pub enum Purpose {
     EvaluationPairs = 5,
     /// Worlds made by `scenario generate`.
     GeneratedWorld = 6,
+    /// Inputs and states of the self-test in a champion's blob; generation: the champion's.
+    SelfTest = 7,
+    /// Noise, offsets and randomised vehicles of an evaluation's drives; index: pair.
+    EvaluationDrive = 8,
 }
 
 impl Purpose {
     /// Every purpose, by number.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::InitialPopulation,
         Self::Breeding,
         Self::TrainingPairs,
         Self::Episode,
         Self::EvaluationPairs,
         Self::GeneratedWorld,
+        Self::SelfTest,
+        Self::EvaluationDrive,
     ];
 }
 

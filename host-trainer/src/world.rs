@@ -34,6 +34,7 @@ pub struct World {
     walls: Walls,
     discs: Vec<Disc<f32>>,
     solids: Vec<Solid>,
+    sheets: Vec<[f32; 4]>,
 }
 
 /// The inside of an obstacle, where its walls are out of a beam's sight.
@@ -93,6 +94,21 @@ impl World {
     /// Every wall, lengthened by [`CORNER_OVERLAP`].
     pub fn segments(&self) -> &[Segment<f32>] {
         self.walls.segments()
+    }
+
+    /// Every solid polygon: boxes, polygons and the pieces of thick walls.
+    pub fn polygons(&self) -> Vec<Vec<[f32; 2]>> {
+        let corners = |solid: &Solid| match solid {
+            Solid::Polygon(corners) => Some(corners.iter().map(|c| [c.x, c.y]).collect()),
+            Solid::Map { .. } => None,
+        };
+        self.solids.iter().filter_map(corners).collect()
+    }
+
+    /// Every wall without an inside of its own, as `[x0, y0, x1, y1]`: thin walls, and the
+    /// outlines of a map's obstacles.
+    pub fn sheets(&self) -> &[[f32; 4]] {
+        &self.sheets
     }
 
     /// Every disc.

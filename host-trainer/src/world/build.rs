@@ -47,22 +47,21 @@ impl World {
             parts.loop_of(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]]);
         }
         parts.shapes(spec);
-        let mut bounds = spec.bounds;
         if let Some(map_spec) = &spec.map {
             let map = map::load(&map_spec.yaml).map_err(WorldError::Map)?;
             let (unknown_is_obstacle, lethal) = (map_spec.unknown_is_obstacle, map_spec.lethal);
             for [a, b] in map::trace(&map, unknown_is_obstacle, lethal) {
-                parts.line(a, b);
+                parts.sheet(a, b);
             }
-            bounds = map.bounds();
             parts.solids.push(Solid::Map { map: Box::new(map), unknown_is_obstacle, lethal });
         }
         Ok(Self {
-            bounds,
+            bounds: spec.bounds,
             target_radius: spec.target_radius,
             walls: super::Walls::new(parts.segments),
             discs: parts.discs,
             solids: parts.solids,
+            sheets: parts.sheets,
         })
     }
 }
@@ -72,6 +71,7 @@ struct Parts {
     segments: Vec<Segment<f32>>,
     discs: Vec<Disc<f32>>,
     solids: Vec<Solid>,
+    sheets: Vec<[f32; 4]>,
 }
 
 impl Parts {
@@ -110,7 +110,7 @@ impl Parts {
         for piece in wall.points.windows(2) {
             let ([ax, ay], [bx, by]) = (piece[0], piece[1]);
             if half == 0.0 {
-                self.line(piece[0], piece[1]);
+                self.sheet(piece[0], piece[1]);
                 continue;
             }
             let (dx, dy) = (bx - ax, by - ay);
@@ -127,6 +127,11 @@ impl Parts {
             let joints = wall.points.iter().skip(1).take(wall.points.len().saturating_sub(2));
             self.discs.extend(joints.map(|[x, y]| Disc { centre: (*x, *y), radius: half }));
         }
+    }
+
+    fn sheet(&mut self, a: [f32; 2], b: [f32; 2]) {
+        self.sheets.push([a[0], a[1], b[0], b[1]]);
+        self.line(a, b);
     }
 
     /// One wall, lengthened at both ends by [`CORNER_OVERLAP`], or by a few units in the last

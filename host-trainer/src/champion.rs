@@ -1,0 +1,80 @@
+//! The winner, as the bytes that go onto the car.
+
+use crate::problem::Problem;
+use crate::scenario::{Scenario, to_toml};
+use crate::seed::{Purpose, RunSeed};
+use crate::training::Best;
+use controller_core::blob::{self, EncodeError, Header, Provenance};
+use controller_core::observation::INPUTS;
+use sha2::{Digest, Sha256};
+
+/// Self-test triples in a champion's blob.
+const SELF_TESTS: u8 = 4;
+
+/// Writes the champion of a run as a weight blob.
+///
+/// # Errors
+///
+/// A genome that the blob format refuses.
+pub fn to_blob(problem: &Problem, seed: RunSeed, best: &Best) -> Result<Vec<u8>, EncodeError> {
+    let header = header(problem, seed, best);
+    let self_tests = self_tests(problem, seed, best);
+    // Aligned for reading in place: encoding ends by reading back what it wrote.
+    let mut words = vec![0u32; header.blob_len().div_ceil(4)];
+    let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut words);
+    let length = blob::encode(&header, &best.genome, &self_tests, bytes)?;
+    Ok(bytes[..length].to_vec())
+}
+
+fn header(problem: &Problem, seed: RunSeed, best: &Best) -> Header {
+    let scenario = &problem.scenario;
+    let version = |part: &str| part.parse().expect("cargo's version parts are numbers");
+    let hash = scenario_hash(scenario);
+    Header {
+        topology: problem.topology(),
+        activation: scenario.network.activation,
+        scaling: problem.scaling(),
+        period: scenario.episode.period,
+        wheelbase: scenario.vehicle.wheelbase,
+        beams: scenario.sensors.beams,
+        self_tests: SELF_TESTS,
+        provenance: Provenance {
+            seed: seed.0,
+            generation: best.generation,
+            scenario_hash: hash,
+            tool: [
+                version(env!("CARGO_PKG_VERSION_MAJOR")),
+                version(env!("CARGO_PKG_VERSION_MINOR")),
+                version(env!("CARGO_PKG_VERSION_PATCH")),
+            ],
+            scenario: Provenance::stored_name(&scenario.name),
+        },
+    }
+}
+
+/// First bytes of the SHA-256 of the scenario as a scenario file. A map counts by its file's
+/// name, so that the hash does not depend on where a checkout lies.
+fn scenario_hash(scenario: &Scenario) -> [u8; 8] {
+    let mut portable = scenario.clone();
+    if let Some(map) = &mut portable.world.map
+        && let Some(name) = map.yaml.file_name()
+    {
+        map.yaml = name.into();
+    }
+    let digest = Sha256::digest(to_toml(&portable));
+    std::array::from_fn(|i| digest[i])
+}
+
+/// Random inputs and states with the outputs that this machine computes for them.
+fn self_tests(problem: &Problem, seed: RunSeed, best: &Best) -> Vec<f32> {
+    let brain = problem.brain(&best.genome).expect("a champion has the network's length");
+    let mut random = seed.stream(Purpose::SelfTest, best.generation, 0);
+    let mut words = Vec::new();
+    for _ in 0..SELF_TESTS {
+        let inputs: [f32; INPUTS] = std::array::from_fn(|_| random.unit());
+        let hidden: Vec<f32> = brain.hidden().iter().map(|_| random.within(-1.0, 1.0)).collect();
+        let outputs = brain.outputs(&inputs, &hidden).expect("as many as the brain has");
+        words.extend([&inputs[..], &hidden, &outputs].concat());
+    }
+    words
+}
