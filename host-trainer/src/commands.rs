@@ -1,5 +1,9 @@
 //! The verbs of `evosteer`, one module each: its options and what it does.
 
 mod blob_summary;
+pub mod evaluate;
 pub mod export;
 pub mod inspect;
+pub mod replay;
+mod setup;
+pub mod train;

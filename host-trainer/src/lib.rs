@@ -5,6 +5,7 @@ pub mod brain;
 pub mod car;
 pub mod champion;
 pub mod checkpoint;
+pub mod cli;
 pub mod commands;
 pub mod episode;
 pub mod evaluation;

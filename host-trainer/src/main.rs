@@ -1,2 +1,8 @@
 //! The `evosteer` command.
-fn main() {}
+
+use host_trainer::cli;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::main(std::env::args_os())
+}

@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_PI_2;
 
 use controller_core::activation::ActivationKind;
 use controller_core::network::RecurrenceKind;
-use controller_core::observation::{BEAMS, BeamMount, Encoding};
+use controller_core::observation::{BEAMS, BeamMount, DistanceLaw, Encoding, TypeCode};
 
 use super::*;
 
@@ -65,7 +65,11 @@ fn paper() -> Scenario {
         sensors: SensorSpec {
             beams: paper_beams(),
             range: 10.0,
-            encoding: Encoding::default(),
+            // A reading: of the four codes this one trained best (docs).
+            encoding: Encoding {
+                distance: DistanceLaw::Linear,
+                types: TypeCode::NearestWallAnyTarget,
+            },
             noise: 0.0,
             dropout: 0.0,
         },

@@ -1,0 +1,82 @@
+//! The command line: what was typed, and the exit code it ends in.
+
+use crate::commands::{evaluate, export, inspect, replay, train};
+use crate::failure::Failure;
+use crate::output::Output;
+use crate::signals::StopFlag;
+use clap::{Parser, Subcommand};
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// Evolves a neural steering controller for a small car in a simulator, and gets it onto the car
+#[derive(Debug, Parser)]
+#[command(name = "evosteer", version, arg_required_else_help = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Train(train::TrainArgs),
+    Evaluate(evaluate::EvaluateArgs),
+    Replay(replay::ReplayArgs),
+    Export(export::ExportArgs),
+    Inspect(inspect::InspectArgs),
+}
+
+impl Command {
+    fn wants_json(&self) -> bool {
+        match self {
+            Self::Train(args) => args.json,
+            Self::Evaluate(args) => args.json,
+            Self::Replay(args) => args.json,
+            Self::Export(args) => args.json,
+            Self::Inspect(args) => args.json,
+        }
+    }
+
+    fn run(&self, output: &mut Output) -> Result<(), Failure> {
+        let stop = StopFlag::install()?;
+        match self {
+            Self::Train(args) => train::run(args, &stop, output),
+            Self::Evaluate(args) => evaluate::run(args, output),
+            Self::Replay(args) => replay::run(args, output),
+            Self::Export(args) => export::run(args, output),
+            Self::Inspect(args) => inspect::run(args, output),
+        }
+    }
+}
+
+/// Runs the command line and returns the process's exit code.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => return refuse(&error),
+    };
+    let mut output = Output::new(cli.command.wants_json());
+    let done = cli.command.run(&mut output);
+    if let Err(failure) = &done {
+        output.status(format_args!("error: {failure}"));
+    }
+    let said = output.finish();
+    match done.and(said) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => ExitCode::from(failure.exit_code()),
+    }
+}
+
+/// Prints help and version to standard output, refusals to standard error with exit code 2.
+fn refuse(error: &clap::Error) -> ExitCode {
+    let mut output = Output::new(false);
+    let text = error.render();
+    if error.use_stderr() {
+        output.status(text.to_string().trim_end());
+        return ExitCode::from(2);
+    }
+    output.line(text.to_string().trim_end());
+    match output.finish() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => ExitCode::from(failure.exit_code()),
+    }
+}

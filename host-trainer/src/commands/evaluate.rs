@@ -1,0 +1,80 @@
+//! `evosteer evaluate`: how good is a champion where it has never been?
+
+use super::setup::{ScenarioOptions, WhichPairs, problem_for};
+use crate::blob_file::BlobFile;
+use crate::evaluation::Evaluation;
+use crate::failure::Failure;
+use crate::output::Output;
+use crate::seed::RunSeed;
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// Judges a champion on start/goal pairs that training never used
+#[derive(Clone, Debug, clap::Args)]
+pub struct EvaluateArgs {
+    /// A weight blob, or a run folder for its champion.blob
+    champion: PathBuf,
+
+    /// A scenario: the name of a shipped one, or a file
+    scenario: String,
+
+    /// How many pairs to draw
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pairs: u32,
+
+    /// Seed of the pairs; training never uses the same ones, whatever its seed was
+    #[arg(long, default_value_t = RunSeed(1))]
+    seed: RunSeed,
+
+    #[command(flatten)]
+    which: WhichPairs,
+
+    #[command(flatten)]
+    options: ScenarioOptions,
+
+    /// Print the result as one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What `--json` prints.
+#[derive(Debug, Serialize)]
+struct Report<'a> {
+    champion: String,
+    scenario: &'a str,
+    #[serde(flatten)]
+    evaluation: &'a Evaluation,
+}
+
+/// Evaluates a champion.
+///
+/// # Errors
+///
+/// A blob or scenario that is refused, or a world in which no pair is found.
+pub fn run(args: &EvaluateArgs, output: &mut Output) -> Result<(), Failure> {
+    let champion = BlobFile::read(&args.champion)?;
+    let problem = problem_for(&champion, &args.scenario, &args.options, output)?;
+    let pairs = args.which.pairs(&problem, args.pairs, args.seed)?;
+    let evaluation = Evaluation::of(&problem, champion.blob().weights(), &pairs, args.seed);
+    let what = if args.which.listed { "listed pairs" } else { "unseen pairs" };
+    output.line(format_args!(
+        "{} on {}, {} {what}, seed {}",
+        champion.path().display(),
+        problem.scenario.name,
+        evaluation.pairs,
+        args.seed
+    ));
+    output.line(format_args!("  reached          {}", evaluation.reached_share()));
+    output.line(format_args!("  clean            {}", evaluation.clean_share()));
+    if let Some(steps) = evaluation.mean_steps_when_reached {
+        output.line(format_args!("  steps to target  {steps:.1} on average"));
+    }
+    output.line(format_args!("  collisions       {:.2} per drive", evaluation.mean_collisions));
+    output.line("  (shares with their 95 % confidence intervals)");
+    output.json(&Report {
+        champion: champion.path().display().to_string(),
+        scenario: &problem.scenario.name,
+        evaluation: &evaluation,
+    });
+    Ok(())
+}

@@ -1,0 +1,112 @@
+//! `evosteer replay`: watch a champion drive.
+
+use super::setup::{ScenarioOptions, WhichPairs, problem_for};
+use crate::blob_file::BlobFile;
+use crate::failure::Failure;
+use crate::output::Output;
+use crate::problem::evaluation_drive;
+use crate::report::page;
+use crate::seed::RunSeed;
+use crate::{files, picture};
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// Drives a champion and writes an animated page that opens offline
+#[derive(Clone, Debug, clap::Args)]
+pub struct ReplayArgs {
+    /// A weight blob, or a run folder for its champion.blob
+    champion: PathBuf,
+
+    /// A scenario: the name of a shipped one, or a file
+    scenario: String,
+
+    /// Where to write the page
+    #[arg(long, default_value = "replay.html", value_name = "FILE")]
+    out: PathBuf,
+
+    /// Replace the page if it exists
+    #[arg(long)]
+    force: bool,
+
+    /// How many drives to show
+    #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=100))]
+    pairs: u32,
+
+    /// Seed of the pairs; the same as of `evaluate`
+    #[arg(long, default_value_t = RunSeed(1))]
+    seed: RunSeed,
+
+    #[command(flatten)]
+    which: WhichPairs,
+
+    #[command(flatten)]
+    options: ScenarioOptions,
+
+    /// Print the result as one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Report {
+    page: String,
+    drives: Vec<Driven>,
+}
+
+#[derive(Debug, Serialize)]
+struct Driven {
+    reached: bool,
+    collisions: u32,
+    steps: u32,
+    loop_period: Option<usize>,
+}
+
+/// Writes the replay.
+///
+/// # Errors
+///
+/// A blob or scenario that is refused, or a page that cannot be written.
+pub fn run(args: &ReplayArgs, output: &mut Output) -> Result<(), Failure> {
+    let champion = BlobFile::read(&args.champion)?;
+    let problem = problem_for(&champion, &args.scenario, &args.options, output)?;
+    let pairs = args.which.pairs(&problem, args.pairs, args.seed)?;
+    let weights = champion.blob().weights();
+    let drives = picture::drives(&problem, weights, &pairs, |i| evaluation_drive(args.seed, i));
+    let report = Report {
+        page: args.out.display().to_string(),
+        drives: drives
+            .iter()
+            .map(|drive| Driven {
+                reached: drive.outcome.reached,
+                collisions: drive.outcome.collisions,
+                steps: drive.outcome.steps,
+                loop_period: drive.loop_period,
+            })
+            .collect(),
+    };
+    for (number, drive) in (1..).zip(&drives) {
+        let steps = drive.outcome.steps;
+        output.line(format_args!("drive {number}: {} after {steps} steps", drive.verdict()));
+    }
+    let header = champion.blob();
+    let provenance = header.header().provenance;
+    let data = picture::report(
+        &problem,
+        format!("{} on {}", champion.path().display(), problem.scenario.name),
+        String::new(),
+        drives,
+        Vec::new(),
+        vec![
+            ("trained on".to_owned(), provenance.scenario_name().to_owned()),
+            ("run seed".to_owned(), provenance.seed.to_string()),
+            ("generation".to_owned(), provenance.generation.to_string()),
+            ("check".to_owned(), format!("{:016x}", header.check())),
+        ],
+    );
+    let page = page::render_replay(&data);
+    let write = if args.force { files::write } else { files::write_new };
+    write(&args.out, page.as_bytes())?;
+    output.line(format_args!("wrote {} (open it in a browser)", args.out.display()));
+    output.json(&report);
+    Ok(())
+}

@@ -1,0 +1,207 @@
+//! `evosteer train`: the main job, from a scenario to a champion and its report.
+
+mod finish;
+
+use super::setup::{ScenarioOptions, problem};
+use crate::checkpoint::Checkpoints;
+use crate::failure::{Failure, FailureKind};
+use crate::output::{Output, Progress};
+use crate::problem::Problem;
+use crate::run_folder::manifest::Input;
+use crate::run_folder::{Manifest, Metrics, RunFolder};
+use crate::scenario::{Scenario, Setting};
+use crate::seed::RunSeed;
+use crate::signals::StopFlag;
+use crate::training::{Snapshot, Training};
+use controller_core::blob;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Longest time between two checkpoints while generations are being done.
+const CHECKPOINT_EVERY: Duration = Duration::from_secs(2);
+
+/// Evolves a controller
+///
+/// Writes a run folder with the champion, metrics, plots, checkpoints and a report that opens
+/// offline. Ctrl-C stops after the current generation, with a checkpoint to resume from. One
+/// seed gives one champion, on any number of threads and across interruptions.
+#[derive(Clone, Debug, clap::Args)]
+pub struct TrainArgs {
+    /// A scenario: the name of a shipped one, or a file
+    #[arg(default_value = "obstacles")]
+    scenario: String,
+
+    /// The run folder; a new one under runs/ if not given
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Go on with the run in this folder; only --generations, --threads and --json may join
+    #[arg(
+        long,
+        value_name = "DIR",
+        conflicts_with_all = ["scenario", "out", "seed", "population", "preset", "set"]
+    )]
+    resume: Option<PathBuf>,
+
+    /// Seed of every random draw
+    #[arg(long, default_value_t = RunSeed(1))]
+    seed: RunSeed,
+
+    /// Threads to work with; all cores if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// Generations to run, in all
+    #[arg(long, value_name = "N")]
+    generations: Option<u32>,
+
+    /// Individuals per generation
+    #[arg(long, value_name = "N")]
+    population: Option<u32>,
+
+    #[command(flatten)]
+    options: ScenarioOptions,
+
+    /// Print the result as one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A run, ready to go on.
+struct Run {
+    folder: RunFolder,
+    seed: RunSeed,
+    problem: Problem,
+    checkpoints: Checkpoints,
+    snapshot: Option<Snapshot>,
+}
+
+/// Trains.
+///
+/// # Errors
+///
+/// Anything wrong with scenario, options or run folder; a signal, after the checkpoint is
+/// written.
+pub fn run(args: &TrainArgs, stop: &StopFlag, output: &mut Output) -> Result<(), Failure> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.threads.map_or(0, usize::from))
+        .build()
+        .map_err(|error| Failure::bad_input(format!("--threads: {error}")))?;
+    let run = match &args.resume {
+        Some(folder) => Run::resume(folder, args.generations, output)?,
+        None => Run::begin(args)?,
+    };
+    pool.install(|| run.go(stop, output))
+}
+
+impl Run {
+    fn begin(args: &TrainArgs) -> Result<Self, Failure> {
+        let mut settings = args.options.settings();
+        for (option, key, value) in [
+            ("--generations", "training.generations", args.generations),
+            ("--population", "training.population", args.population),
+        ] {
+            settings.extend(value.map(|value| Setting::option(option, key, value)));
+        }
+        let problem = problem(&args.scenario, args.options.preset, &settings)?;
+        // Everything that can be refused is, before a folder exists.
+        Training::new(&problem, args.seed)?.pairs(0)?;
+        let folder = match &args.out {
+            Some(path) => RunFolder::create(path)?,
+            None => RunFolder::choose(Path::new("runs"), &problem.scenario.name, args.seed.0)?,
+        };
+        manifest(args.seed, &problem.scenario)?.write(&folder)?;
+        let (checkpoints, _) = Checkpoints::open::<Snapshot>(&folder)?;
+        Ok(Self { folder, seed: args.seed, problem, checkpoints, snapshot: None })
+    }
+
+    fn resume(path: &Path, generations: Option<u32>, output: &mut Output) -> Result<Self, Failure> {
+        let folder = RunFolder::resume(path)?;
+        let mut manifest = Manifest::<Scenario>::read(&folder)?;
+        if let Some(generations) = generations
+            && generations != manifest.scenario.training.generations
+        {
+            manifest.scenario.training.generations = generations;
+            manifest = self::manifest(RunSeed(manifest.seed), &manifest.scenario)?;
+            manifest.write(&folder)?;
+        }
+        let (checkpoints, loaded) = Checkpoints::open::<Snapshot>(&folder)?;
+        for warning in loaded.iter().flat_map(|loaded| &loaded.warnings) {
+            output.warning(warning);
+        }
+        Ok(Self {
+            folder,
+            seed: RunSeed(manifest.seed),
+            problem: Problem::new(manifest.scenario)?,
+            checkpoints,
+            snapshot: loaded.map(|loaded| loaded.state),
+        })
+    }
+
+    fn go(self, stop: &StopFlag, output: &mut Output) -> Result<(), Failure> {
+        let Self { folder, seed, problem, mut checkpoints, snapshot } = self;
+        let mut training = Training::new(&problem, seed)?;
+        if let Some(snapshot) = snapshot {
+            training.restore(snapshot).map_err(|error| {
+                let folder = folder.path().display();
+                Failure::bad_input(format!("the checkpoint in {folder} is of another run: {error}"))
+            })?;
+        }
+        let total = problem.scenario.training.generations;
+        let scenario = &problem.scenario.name;
+        output.status(format_args!(
+            "{scenario}: {} individuals, {total} generations, {}, seed {}, {} threads, in {}",
+            problem.scenario.training.population,
+            problem.topology(),
+            seed,
+            rayon::current_num_threads(),
+            folder.path().display()
+        ));
+        let mut metrics = Metrics::start(&folder, training.history())?;
+        let mut progress = Progress::start(training.generation(), total);
+        let mut saved = Instant::now();
+        let mut save = |training: &Training<'_>| {
+            checkpoints.save(&folder, u64::from(training.generation()), &training.snapshot())
+        };
+        while training.generation() < total && stop.requested().is_none() {
+            let begun = Instant::now();
+            let row = *training.step()?;
+            let steps_per_second = row.live_steps as f64 / begun.elapsed().as_secs_f64();
+            metrics.append(&row, steps_per_second)?;
+            progress.update(output, &row, steps_per_second);
+            if saved.elapsed() >= CHECKPOINT_EVERY {
+                save(&training)?;
+                saved = Instant::now();
+            }
+        }
+        progress.finish();
+        metrics.sync()?;
+        save(&training)?;
+        if let Some(signal) = stop.requested()
+            && training.generation() < total
+        {
+            let message = format!(
+                "stopped after generation {} of {total}, checkpoint written\n\
+                 go on with: evosteer train --resume {}",
+                training.generation(),
+                folder.path().display()
+            );
+            return Err(Failure::new(FailureKind::Interrupted { signal }, message));
+        }
+        finish::finish(&folder, &problem, seed, &training, output)
+    }
+}
+
+fn manifest(seed: RunSeed, scenario: &Scenario) -> Result<Manifest<Scenario>, Failure> {
+    let mut scenario = scenario.clone();
+    let mut inputs = Vec::new();
+    if let Some(map) = &mut scenario.world.map {
+        // A run may be resumed from another folder.
+        map.yaml = std::path::absolute(&map.yaml)
+            .map_err(|cause| Failure::io("find", &map.yaml, &cause))?;
+        inputs.push(Input::of_file(&map.yaml)?);
+        let image = crate::map::load(&map.yaml)?.image;
+        inputs.push(Input::of_file(&image)?);
+    }
+    Manifest::new(seed.0, scenario, blob::VERSION, inputs)
+}
