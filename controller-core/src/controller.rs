@@ -134,7 +134,7 @@ impl<R: Recurrence, A: Activation, const H: usize, const O: usize> Decide
             Ok(reading) => {
                 self.good_readings_owed = 0;
                 let inputs = self.scaling.encoding.inputs(&reading.sight(), self.scaling.range);
-                self.outputs = self.network.step(self.activation, &mut self.state, &inputs);
+                self.outputs = self.network.step_alone(self.activation, &mut self.state, &inputs);
                 self.scaling.command(&self.outputs)
             }
         }

@@ -329,6 +329,20 @@ impl<'a, R: Recurrence, W: Copy + fmt::Debug, const I: usize, const H: usize, co
     }
 }
 
+impl<R: Recurrence, const I: usize, const H: usize, const O: usize> Network<'_, R, f32, I, H, O> {
+    /// [`Self::step`] for one robot, compiled once: a device's self-test then runs the very
+    /// instructions that will drive.
+    #[inline(never)]
+    pub fn step_alone(
+        &self,
+        activation: impl Activation,
+        state: &mut State<f32, H>,
+        input: &[f32; I],
+    ) -> [f32; O] {
+        self.step(activation, state, input)
+    }
+}
+
 #[inline(always)]
 fn add_products<L: Lane + From<W>, W: Copy, const IN: usize, const OUT: usize>(
     sums: &mut [L; OUT],

@@ -107,7 +107,7 @@ impl Blob<'_> {
             let Some((first, rest)) = rest.split_first_chunk::<H>() else { continue };
             let Some((second, expected)) = rest.split_first_chunk::<H>() else { continue };
             let mut state = State { first: *first, second: *second };
-            let outputs = network.step(activation, &mut state, inputs);
+            let outputs = network.step_alone(activation, &mut state, inputs);
             for (output, (found, expected)) in outputs.iter().zip(expected).enumerate() {
                 let (found, expected) = (found.to_bits(), expected.to_bits());
                 if found != expected {
