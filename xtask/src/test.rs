@@ -63,11 +63,13 @@ fn build_boards(options: &Options) -> Result<(), Failure> {
     process::run(&mut qemu::decoder("build"))
 }
 
-/// All tests of the workspace; `CI` makes a test that would be left out a failure.
+/// All tests of the workspace; `CI` and `EVOSTEER_REQUIRE_ALL` make a test that would be left out
+/// a failure.
 fn cargo_test(options: &Options, tally: &mut Tally) -> Result<(), Failure> {
     let mut command = process::cargo();
     command.args(["test", "--workspace", "--no-fail-fast"]);
-    command.env("CI", "true").env("XTASK_TARGETS", options.targets.name()).stdout(Stdio::piped());
+    command.env("CI", "true").env("EVOSTEER_REQUIRE_ALL", "1");
+    command.env("XTASK_TARGETS", options.targets.name()).stdout(Stdio::piped());
     let cannot = |what: &str, error| Failure::failed(format!("cannot {what} cargo test: {error}"));
     let mut child = command.spawn().map_err(|error| cannot("start", error))?;
     let pipe = child.stdout.take().expect("stdout is piped");

@@ -18,8 +18,21 @@ pub(crate) fn fetch_all(options: &Options) -> Result<(), Failure> {
         Toolchain::fetch(options.targets, board.triple)?;
         fetch_emulator(board)?;
     }
+    for (program, package, why) in TEST_TOOLS {
+        if process::which(program).is_none() {
+            apt::install(&[package], why)?;
+        }
+    }
     Ok(())
 }
+
+/// Programs that tests call: the program, its Debian package, and what it is for.
+const TEST_TOOLS: [(&str, &str, &str); 4] = [
+    ("chromium", "chromium", "a test opens the report in a browser"),
+    ("chromedriver", "chromium-driver", "a test presses the report's buttons"),
+    ("python3", "python3", "independent decoders of our formats are written in Python"),
+    ("objcopy", "binutils", "a test reads exported Intel HEX back"),
+];
 
 /// Whether a part of the toolchain answers; rustup leaves its proxy in place for parts it does not have.
 pub(crate) fn component_version(program: &str) -> Option<String> {
