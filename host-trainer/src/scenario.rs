@@ -7,6 +7,7 @@
 
 mod catalogue;
 mod check;
+pub mod generate;
 mod keys;
 mod load;
 mod number;
@@ -39,7 +40,7 @@ pub use preset::Preset;
 pub use problem::Complaint;
 pub use shipped::Entry;
 pub use source::Source;
-pub use writer::to_toml;
+pub use writer::{to_toml, to_toml_beside};
 
 /// Longest name of a scenario, bytes.
 const NAME_LENGTH: usize = 64;

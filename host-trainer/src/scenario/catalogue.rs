@@ -84,6 +84,17 @@ mod tests {
     }
 
     #[test]
+    fn a_map_is_the_room_unless_the_scenario_gives_another() {
+        let depot = shipped_scenario("depot");
+        assert_eq!(depot.world.bounds.min, [0.0, 0.0]);
+        assert_eq!(depot.world.bounds.max, [30.2, 15.35]);
+        assert_eq!(shipped_scenario("tb3_sandbox").world.bounds.max, [2.8, 2.7]);
+        let settings = [Setting::set("world.min_m=[40,0]"), Setting::set("world.max_m=[50,9]")];
+        let failure = load(&find("depot").unwrap(), None, &settings).unwrap_err();
+        assert!(failure.to_string().contains("the map lies outside the room"), "{failure}");
+    }
+
+    #[test]
     fn an_unknown_name_is_answered_with_the_nearest_and_all_names() {
         let failure = find("obstacle").unwrap_err();
         assert_eq!(failure.exit_code(), 2);

@@ -33,7 +33,7 @@ impl Bounds {
     }
 
     /// Whether there is a point in common with a rectangle, edges included.
-    fn overlaps(&self, min: [f32; 2], max: [f32; 2]) -> bool {
+    pub(super) fn overlaps(&self, min: [f32; 2], max: [f32; 2]) -> bool {
         (0..2).all(|axis| min[axis] <= self.max[axis] && max[axis] >= self.min[axis])
     }
 }

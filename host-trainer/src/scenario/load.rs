@@ -82,6 +82,15 @@ pub fn load(
         if !written("world.max_m") {
             scenario.world.bounds.max = bounds.max;
         }
+        let Bounds { min, max } = bounds;
+        if !scenario.world.bounds.overlaps(min, max) {
+            let detail = format!(
+                "found a map from ({}, {}) to ({}, {}), expected a part of it in the room",
+                min[0], min[1], max[0], max[1]
+            );
+            let outside = Complaint::new("world.map.yaml", "the map lies outside the room", detail);
+            return Err(point(&[outside], &tables, &documents));
+        }
     }
     let mut complaints = complaints(&scenario);
     complaints.extend(listed_and_drawn(&tables));

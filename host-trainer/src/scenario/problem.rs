@@ -6,7 +6,7 @@ use std::ops::Range;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 /// Most problems printed at once.
-const MOST_PRINTED: usize = 20;
+pub(super) const MOST_PRINTED: usize = 20;
 
 /// Something that is wrong with a scenario as a whole, such as a start inside a wall.
 ///

@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::keys::{all_keys, braces, keys_of};
-use super::problem::{Place, Problem};
+use super::problem::{MOST_PRINTED, Place, Problem};
 use super::schema::{Codec, Record, Visit};
 use super::value::{Found, Path};
 use super::words::{listed, nearest};
@@ -75,21 +75,24 @@ impl Reader<'_, '_> {
     }
 
     fn refuse_unknown_keys(&mut self) {
-        for layer in &self.layers {
-            for (key, _) in layer.table.iter() {
-                let name: &str = key.get_ref();
-                if self.seen.contains(&name) {
-                    continue;
-                }
-                let place = Place { document: layer.document, span: key.span() };
-                let choices = listed(self.seen.iter().map(|key| (*key).to_owned()));
-                self.problems.push(Problem {
-                    place: Some(place),
-                    title: format!("unknown key `{}`", self.name(name)),
-                    detail: format!("expected {choices}"),
-                    help: self.meant(name).map(|key| format!("did you mean `{key}`?")),
-                });
-            }
+        let mut unknown: Vec<_> = self
+            .layers
+            .iter()
+            .flat_map(|layer| layer.table.keys().map(|key| (layer.document, key)))
+            .filter(|(_, key)| !self.seen.contains(&key.get_ref().as_ref()))
+            .collect();
+        unknown.sort_by_key(|(document, key)| (*document, key.span().start));
+        let choices = listed(self.seen.iter().map(|key| (*key).to_owned()));
+        for (rank, (document, key)) in unknown.into_iter().enumerate() {
+            let name: &str = key.get_ref();
+            // Looking for what was meant takes time, and only the first problems are printed.
+            let meant = if rank < MOST_PRINTED { self.meant(name) } else { None };
+            self.problems.push(Problem {
+                place: Some(Place { document, span: key.span() }),
+                title: format!("unknown key `{}`", self.name(name)),
+                detail: format!("expected {choices}"),
+                help: meant.map(|key| format!("did you mean `{key}`?")),
+            });
         }
     }
 

@@ -73,7 +73,7 @@ const COUNT: Whole = Whole { low: 1, high: 1_000_000 };
 
 impl Record for Scenario {
     fn visit(&mut self, v: &mut impl Visit) {
-        v.value("name", &mut self.name, Name, "letters, digits, `-` and `_`");
+        v.value("name", &mut self.name, Name, "the file's name if left out");
         v.value("description", &mut self.description, Line, "one line for people");
         v.section("world", &mut self.world);
         v.section("vehicle", &mut self.vehicle);

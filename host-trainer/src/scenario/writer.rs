@@ -1,14 +1,52 @@
 //! Writes settings as TOML that a person can read and change.
 
-use super::Scenario;
 use super::schema::{Codec, Record, Visit};
+use super::{Preset, Scenario};
 
 /// The scenario as a scenario file that says everything: loading it gives the same scenario,
 /// whatever the preset.
 pub fn to_toml(scenario: &Scenario) -> String {
+    text_of(&settings_of(scenario))
+}
+
+/// The scenario as a scenario file that says what differs from a preset, and always the size of
+/// the room: loading it with that preset gives the same scenario.
+pub fn to_toml_beside(scenario: &Scenario, preset: Preset) -> String {
+    let usual = settings_of(&preset.scenario());
+    let mut settings = settings_of(scenario);
+    settings.retain(|setting| {
+        let same = |other: &Setting| setting.section == other.section && setting.text == other.text;
+        ["min_m", "max_m"].contains(&setting.key) || !usual.iter().any(same)
+    });
+    text_of(&settings)
+}
+
+/// One setting as it stands in a file.
+struct Setting {
+    /// Names of its sections, joined by dots; empty at the top.
+    section: String,
+    key: &'static str,
+    /// One line or more.
+    text: String,
+}
+
+fn settings_of(scenario: &Scenario) -> Vec<Setting> {
     let mut writer = Writer::default();
     scenario.clone().visit(&mut writer);
-    writer.text
+    writer.settings
+}
+
+fn text_of(settings: &[Setting]) -> String {
+    let mut text = String::new();
+    let mut section = "";
+    for setting in settings {
+        if setting.section != section {
+            section = &setting.section;
+            text.push_str(&format!("\n[{section}]\n"));
+        }
+        text.push_str(&setting.text);
+    }
+    text
 }
 
 /// One table as `{ key = value, ... }`.
@@ -20,7 +58,7 @@ pub(super) fn write_record(mut record: impl Record) -> String {
 
 #[derive(Default)]
 struct Writer {
-    text: String,
+    settings: Vec<Setting>,
     /// Keys of the sections we are in.
     sections: Vec<&'static str>,
 }
@@ -28,7 +66,7 @@ struct Writer {
 impl Visit for Writer {
     fn value<T>(&mut self, key: &'static str, slot: &mut T, codec: impl Codec<T>, about: &str) {
         let Some(value) = codec.write(slot) else { return };
-        let line = if value.contains('\n') {
+        let text = if value.contains('\n') {
             format!("# {about}\n{key} = {value}\n")
         } else if about.is_empty() {
             format!("{key} = {value}\n")
@@ -36,12 +74,11 @@ impl Visit for Writer {
             let setting = format!("{key} = {value}");
             format!("{setting:<28} # {about}\n")
         };
-        self.text.push_str(&line);
+        self.settings.push(Setting { section: self.sections.join("."), key, text });
     }
 
     fn section(&mut self, key: &'static str, record: &mut impl Record) {
         self.sections.push(key);
-        self.text.push_str(&format!("\n[{}]\n", self.sections.join(".")));
         record.visit(self);
         self.sections.pop();
     }
