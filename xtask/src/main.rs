@@ -12,6 +12,7 @@ mod apt;
 mod boards;
 mod doctor;
 mod elf;
+mod exhaustive;
 mod failure;
 mod firmware;
 mod lint;
@@ -72,6 +73,12 @@ const COMMANDS: &[Command] = &[
         arguments: "ELF [--board BOARD] [--timeout SECONDS]",
         summary: "runs a board's program in QEMU, decodes its log, passes its exit code on",
         run: qemu::run,
+    },
+    Command {
+        name: "exhaustive",
+        arguments: "",
+        summary: "every f32 there is through every tanh; minutes, not part of test",
+        run: exhaustive::run,
     },
     Command {
         name: "size",

@@ -114,7 +114,7 @@ fn extent(points: &[[f32; 2]], radius: f32) -> ([f32; 2], [f32; 2]) {
 }
 
 fn vehicle(scenario: &Scenario, found: &mut Vec<Complaint>) {
-    let VehicleSpec { length, width, front_overhang, step, .. } = scenario.vehicle;
+    let VehicleSpec { length, width, front_overhang, wheelbase, step, .. } = scenario.vehicle;
     if front_overhang > length {
         let detail = format!(
             "found {front_overhang} m with a body of {length} m, expected the front axle under the body"
@@ -137,6 +137,16 @@ fn vehicle(scenario: &Scenario, found: &mut Vec<Complaint>) {
                 .or_at("vehicle.length_m")
                 .help("shorten the step (and the period), or describe a larger body");
         found.push(complaint);
+    }
+    // Headings are wrapped once per step, so a step must stay below half a turn.
+    let shortest = wheelbase * (1.0 - scenario.episode.randomise.wheelbase);
+    if longest > shortest * 3.0 {
+        let detail = format!(
+            "found {shortest} m with steps of up to {longest} m, expected at least a third of the step"
+        );
+        let title = "the car could turn more than half a turn in one step";
+        let complaint = Complaint::new("vehicle.wheelbase_m", title, detail);
+        found.push(complaint.or_at("episode.randomise.wheelbase").or_at("vehicle.step_m"));
     }
 }
 
