@@ -4,6 +4,16 @@
 //! A [`Scenario`] is always valid. What a person types (TOML, `--set`, `--preset`) is text;
 //! turning it into a scenario is the only place that refuses.
 //! Lengths are metres, angles radians, counter-clockwise positive (the ROS convention).
+//!
+//! | look in | for |
+//! | --- | --- |
+//! | [`find`], [`load`] | from a name or a path to a scenario, or all that is wrong with it |
+//! | [`Setting`], [`Preset`] | what goes over and under a file |
+//! | [`refuse`], [`Complaint`] | what a simulator finds wrong, printed with its place in the file |
+//! | [`to_toml`], [`to_toml_beside`] | back to a file, in full or what differs from a preset |
+//! | [`generate`] | random worlds |
+//! | `schema` | every key with its range: the list that reader, writer and README share |
+//! | `check`, `polygon` | what must hold between keys |
 
 mod catalogue;
 mod check;

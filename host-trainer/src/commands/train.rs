@@ -193,15 +193,11 @@ impl Run {
 }
 
 fn manifest(seed: RunSeed, scenario: &Scenario) -> Result<Manifest<Scenario>, Failure> {
-    let mut scenario = scenario.clone();
     let mut inputs = Vec::new();
-    if let Some(map) = &mut scenario.world.map {
-        // A run may be resumed from another folder.
-        map.yaml = std::path::absolute(&map.yaml)
-            .map_err(|cause| Failure::io("find", &map.yaml, &cause))?;
+    if let Some(map) = &scenario.world.map {
         inputs.push(Input::of_file(&map.yaml)?);
         let image = crate::map::load(&map.yaml)?.image;
         inputs.push(Input::of_file(&image)?);
     }
-    Manifest::new(seed.0, scenario, blob::VERSION, inputs)
+    Manifest::new(seed.0, scenario.clone(), blob::VERSION, inputs)
 }

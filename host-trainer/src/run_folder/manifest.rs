@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::RunFolder;
 use crate::failure::Failure;
 use crate::fingerprint::sha256;
+use crate::scenario::shipped;
 
 /// `manifest.toml`: settings, seed, versions and fingerprints. No times and no host names,
 /// so that equal runs have equal manifests.
@@ -56,14 +57,17 @@ pub struct Input {
 }
 
 impl Input {
-    /// Reads a file and takes its fingerprint.
+    /// Reads a file, on disk or inside this program, and takes its fingerprint.
     ///
     /// # Errors
     ///
     /// Input/output, naming the file.
     pub fn of_file(path: &Path) -> Result<Self, Failure> {
-        let bytes = fs::read(path).map_err(|cause| Failure::io("read", path, &cause))?;
-        Ok(Self { path: path.to_owned(), sha256: sha256(&bytes) })
+        let sha256 = match shipped::bytes(path) {
+            Some(bytes) => sha256(bytes),
+            None => sha256(&fs::read(path).map_err(|cause| Failure::io("read", path, &cause))?),
+        };
+        Ok(Self { path: path.to_owned(), sha256 })
     }
 }
 

@@ -171,3 +171,10 @@ proptest! {
         prop_assert_eq!(back, manifest);
     }
 }
+
+#[test]
+fn a_shipped_file_has_the_fingerprint_of_the_file_in_the_repository() {
+    let shipped = Input::of_file(Path::new("shipped:worlds/nav2/depot.yaml")).unwrap();
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenarios/worlds/nav2/depot.yaml");
+    assert_eq!(shipped.sha256, Input::of_file(Path::new(file)).unwrap().sha256);
+}
