@@ -12,6 +12,8 @@ pub(crate) struct Board {
     pub(crate) name: &'static str,
     /// Rust's name for its instruction set.
     pub(crate) triple: &'static str,
+    /// Rust's name for its processor, whose timing the code is made for; the bits do not depend on it.
+    pub(crate) cpu: &'static str,
     /// How it runs here.
     pub(crate) emulator: Emulator,
 }
@@ -25,6 +27,8 @@ pub(crate) struct Emulator {
     pub(crate) package: &'static str,
     /// QEMU's name of the machine.
     pub(crate) machine: &'static str,
+    /// What else QEMU has to be told about it.
+    pub(crate) options: &'static [&'static str],
 }
 
 impl Board {
@@ -35,15 +39,36 @@ impl Board {
 }
 
 /// Every board there is.
-pub(crate) const ALL: &[Board] = &[Board {
-    name: "mps2-an386",
-    triple: "thumbv7em-none-eabihf",
-    emulator: Emulator {
-        program: "qemu-system-arm",
-        package: "qemu-system-arm",
-        machine: "mps2-an386",
+pub(crate) const ALL: &[Board] = &[
+    Board {
+        name: "microbit",
+        triple: "thumbv6m-none-eabi",
+        cpu: "cortex-m0",
+        emulator: arm("microbit"),
     },
-}];
+    Board {
+        name: "mps2-an385",
+        triple: "thumbv7m-none-eabi",
+        cpu: "cortex-m3",
+        emulator: arm("mps2-an385"),
+    },
+    Board {
+        name: "mps2-an386",
+        triple: "thumbv7em-none-eabihf",
+        cpu: "cortex-m4",
+        emulator: arm("mps2-an386"),
+    },
+    Board {
+        name: "mps2-an500",
+        triple: "thumbv7em-none-eabihf",
+        cpu: "cortex-m7",
+        emulator: arm("mps2-an500"),
+    },
+];
+
+const fn arm(machine: &'static str) -> Emulator {
+    Emulator { program: "qemu-system-arm", package: "qemu-system-arm", machine, options: &[] }
+}
 
 /// The boards named by the operands, or all of them.
 pub(crate) fn chosen(options: &Options) -> Result<Vec<&'static Board>, Failure> {
@@ -81,29 +106,43 @@ mod tests {
     use super::*;
     use crate::process::root;
 
-    #[test]
-    fn every_board_has_a_folder_a_feature_and_a_binary_and_every_folder_is_a_board() {
-        let firmware = root().join("firmware-example");
-        let mut folders: Vec<String> = std::fs::read_dir(firmware.join("boards"))
-            .expect("boards")
-            .map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned())
+    /// Names in a folder without their extensions, sorted.
+    fn listed(folder: &str) -> Vec<String> {
+        let mut names: Vec<String> = std::fs::read_dir(root().join(folder))
+            .expect(folder)
+            .map(|entry| entry.expect("entry").path())
+            .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
             .collect();
-        folders.sort();
-        assert_eq!(folders, names());
+        names.sort();
+        names
+    }
 
-        let manifest = std::fs::read_to_string(firmware.join("Cargo.toml")).expect("manifest");
-        for board in ALL {
-            assert!(
-                manifest.contains(&format!("\n{} = [", board.feature())),
-                "no feature for {}",
-                board.name
-            );
-            assert!(
-                manifest.contains(&format!("name = \"{}\"", board.name)),
-                "no binary for {}",
-                board.name
-            );
-        }
+    #[test]
+    fn folders_programs_features_and_binaries_are_those_of_this_list() {
+        assert_eq!(listed("firmware-example/boards"), names());
+        assert_eq!(listed("firmware-example/src/bin"), names());
+
+        let manifest =
+            std::fs::read_to_string(root().join("firmware-example/Cargo.toml")).expect("manifest");
+        let features: Vec<&str> = manifest
+            .lines()
+            .filter_map(|line| Some(line.strip_prefix("board-")?.split_once(" = [")?.0))
+            .collect();
+        assert_eq!(features, names());
+        let binaries: Vec<String> = manifest
+            .split("[[bin]]\n")
+            .skip(1)
+            .map(|table| table.lines().take(3).collect::<Vec<_>>().join("\n"))
+            .collect();
+        let expected: Vec<String> = names()
+            .iter()
+            .map(|name| {
+                format!(
+                    "name = \"{name}\"\npath = \"src/bin/{name}.rs\"\nrequired-features = [\"board-{name}\"]"
+                )
+            })
+            .collect();
+        assert_eq!(binaries, expected);
     }
 
     #[test]

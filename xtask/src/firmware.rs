@@ -32,6 +32,9 @@ pub(crate) fn build(board: &Board, options: &Options) -> Result<PathBuf, Failure
 /// `cargo <verb>` for one board's program.
 pub(crate) fn command(verb: &str, board: &Board, toolchain: Toolchain) -> Command {
     let mut command = toolchain.cargo(verb, board.triple);
+    // Here and not in `.cargo/config.toml`: two boards share an instruction set but not a processor.
+    let flags = format!("target.{}.rustflags=[\"-Ctarget-cpu={}\"]", board.triple, board.cpu);
+    command.args(["--config", &flags]);
     command.args(["--quiet", "--profile", "firmware", "--package", "firmware-example"]);
     command.args(["--features", &board.feature(), "--bin", board.name]);
     command

@@ -100,6 +100,15 @@ impl Outcome {
         }
         Err(Trouble::Failed(format!("expected `{text}`, found:\n{}", self.text)))
     }
+
+    /// Fails unless the run printed a line about `subject` with this in it.
+    pub(crate) fn expect_line(&self, subject: &str, text: &str) -> Result<(), Trouble> {
+        let about = format!("{subject}:");
+        if self.text.lines().any(|line| line.contains(&about) && line.contains(text)) {
+            return Ok(());
+        }
+        Err(Trouble::Failed(format!("{about} expected `{text}`, found:\n{}", self.text)))
+    }
 }
 
 /// Runs an xtask command; a missing tool is no failure of the test.

@@ -50,6 +50,7 @@ fn start(board: &Board, elf: &Path) -> Result<Child, Failure> {
             "-serial",
             "none",
         ])
+        .args(board.emulator.options)
         .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
         .arg(elf)
         .stdin(Stdio::null())
