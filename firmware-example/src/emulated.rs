@@ -1,7 +1,11 @@
 //! How a program on a board that QEMU stands in for logs, panics and ends; and the program itself.
 
 #[cfg(feature = "cortex-m")]
-mod cortex_m_support;
+#[path = "emulated/cortex_m_support.rs"]
+mod support;
+#[cfg(feature = "riscv")]
+#[path = "emulated/riscv_support.rs"]
+mod support;
 
 use crate::{recorded, replay};
 // Linked for its global logger: defmt frames leave through semihosting.
@@ -46,7 +50,7 @@ fn sabotage() {
     #[cfg(feature = "sabotage-panic")]
     panic!("on purpose");
     #[cfg(feature = "sabotage-fault")]
-    cortex_m::asm::udf();
+    support::undefined_instruction();
     #[cfg(feature = "sabotage-hang")]
     loop {
         core::hint::spin_loop();

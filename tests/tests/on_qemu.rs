@@ -14,7 +14,11 @@ use program::{Outcome, Program};
 const BOARD: &str = "mps2-an386";
 
 /// One board per way of handling faults, and what it says then.
-const FAULTS: [(&str, &str); 1] = [("mps2-an386", "hard fault at pc")];
+const FAULTS: [(&str, &str); 2] = [
+    ("mps2-an386", "hard fault at pc"),
+    // Exception 2 is the illegal instruction.
+    ("riscv32-virt", "exception 2 at pc"),
+];
 
 /// Words before the first step, and of what was sensed in a step.
 const VALUES_OF_FIRST_STEP: usize = recording::HEADER_WORDS + recording::SENSED_WORDS;

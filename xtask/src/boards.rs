@@ -64,6 +64,18 @@ pub(crate) const ALL: &[Board] = &[
         cpu: "cortex-m7",
         emulator: arm("mps2-an500"),
     },
+    Board {
+        name: "riscv32-virt",
+        triple: "riscv32imafc-unknown-none-elf",
+        cpu: "generic-rv32",
+        emulator: Emulator {
+            program: "qemu-system-riscv32",
+            package: "qemu-system-misc",
+            machine: "virt",
+            // Otherwise QEMU puts OpenSBI where our program lies.
+            options: &["-bios", "none"],
+        },
+    },
 ];
 
 const fn arm(machine: &'static str) -> Emulator {

@@ -8,6 +8,12 @@
 use cortex_m as _;
 use cortex_m_rt::{ExceptionFrame, exception};
 
+/// Runs into an instruction that no processor has: a hard fault.
+#[cfg(feature = "sabotage-fault")]
+pub(super) fn undefined_instruction() -> ! {
+    cortex_m::asm::udf()
+}
+
 #[exception]
 unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
     defmt::error!(
