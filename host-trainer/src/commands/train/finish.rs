@@ -132,7 +132,7 @@ fn draw(
     plot("criteria", &plots::criteria_svg(&history))?;
     let (scene, body) = (picture::scene(problem), picture::body(problem));
     for (number, drive) in (1..).zip(&drives) {
-        let title = format!("{}, pair {number}: {}", problem.scenario.name, drive.verdict());
+        let title = format!("{}, pair {number}", problem.scenario.name);
         let svg = plots::trajectory_svg(&scene, &body, drive, &title);
         plot(&format!("trajectory-{number}"), &svg)?;
     }
