@@ -72,22 +72,6 @@ impl Visit for Keys {
 mod tests {
     use super::*;
 
-    /// The table of `scenarios/README.md`.
-    fn table() -> String {
-        let mut text = String::from("| key | default | may be | |\n| --- | --- | --- | --- |\n");
-        for Key { path, expected, about, default } in all_keys() {
-            let default = if default.is_empty() { default } else { format!("`{default}`") };
-            text.push_str(&format!("| `{path}` | {default} | {expected} | {about} |\n"));
-        }
-        text
-    }
-
-    #[test]
-    fn the_readme_of_the_scenarios_lists_every_key() {
-        let readme = include_str!("../../../scenarios/README.md");
-        assert!(readme.contains(&table()), "expected in scenarios/README.md:\n\n{}", table());
-    }
-
     #[test]
     fn no_key_is_listed_twice() {
         let mut paths: Vec<String> = all_keys().into_iter().map(|key| key.path).collect();
