@@ -224,13 +224,17 @@ impl Sense for SimulatedCar<'_> {
 impl Actuate for SimulatedCar<'_> {
     type Error = Infallible;
 
-    /// Moves one control period; a car that has ended its drive stays where it is.
+    /// Moves one control period. Whether the drive goes on is the caller's business.
     fn actuate(&mut self, command: Command) -> Result<(), Infallible> {
         self.done = self.actuator.act(command);
         let steer = self.done.steer.radians() + self.steer_offset;
         let step = self.done.step.metres() * self.step_scale;
+        let Pose { x, y, .. } = self.pose;
         let moved = self.pose.driven(steer, step, self.wheelbase);
-        self.collided = self.world.touches(&self.model.body, &moved);
+        // A blocked car turns on the spot, and its body may come to lie across a wall; from
+        // there, a step could end on the far side of it.
+        self.collided = self.world.touches(&self.model.body, &moved)
+            || (self.collided && self.world.separates([x, y], [moved.x, moved.y]));
         if self.collided {
             self.collisions += 1;
             self.pose = moved.held_at(&self.pose);

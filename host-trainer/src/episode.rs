@@ -144,7 +144,7 @@ fn run(
 const OFFSET_TRIES: u32 = 32;
 
 /// The pair's start, shifted and turned at random where the scenario says so. A shifted start
-/// that touches an obstacle is drawn again.
+/// that overlaps an obstacle, leaves the room or lies behind a wall is drawn again.
 fn start_pose(
     world: &World,
     model: &CarModel,
@@ -164,7 +164,10 @@ fn start_pose(
             y + random.within(-shift, shift),
             heading + random.within(-turn, turn),
         );
-        if !world.blocks(model.body(), &pose) {
+        if world.bounds.contains([pose.x, pose.y])
+            && !world.blocks(model.body(), &pose)
+            && !world.separates([x, y], [pose.x, pose.y])
+        {
             return pose;
         }
     }

@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 
 pub use error::{MapError, MapProblem, Place};
 pub use shade::{FREE, Mode, OCCUPIED, UNKNOWN};
-pub use trace::{Segment, trace};
+pub use trace::{Segment, trace, trace_within};
 pub use yaml::UnknownKey;
 
 use canvas::Canvas;

@@ -1,4 +1,9 @@
 //! Drawing tasks: a start pose and a goal that are clear of obstacles and hang together.
+//!
+//! Both lie in the main part of the free space, the largest that a car can drive in without
+//! crossing a wall: not inside a hollow pillar of a map, nor outside of the building on it. (A
+//! map with more free space around a building than in it needs the room cut to the building,
+//! by `world.min_m` and `world.max_m`.)
 
 use crate::car::body_of;
 use crate::scenario::{Pair, PairSource, Scenario};
@@ -48,7 +53,8 @@ impl<'a> PairSampler<'a> {
     /// A sampler for this scenario's world and car.
     pub fn new(world: &'a World, scenario: &Scenario) -> Self {
         let body = body_of(&scenario.vehicle);
-        let space = FreeSpace::new(world, body.half_width);
+        let half_length = (body.front - body.rear) * 0.5;
+        let space = FreeSpace::new(world, body.half_width.min(half_length));
         Self { world, space, body, min_distance: scenario.pairs.min_distance }
     }
 
@@ -85,8 +91,8 @@ impl<'a> PairSampler<'a> {
         (0..count).map(|index| self.pair(&mut stream(index))).collect()
     }
 
-    /// One pair: body and target clear of obstacles, any heading, far enough apart, with a free
-    /// way at least as wide as the car.
+    /// One pair: body and target clear of obstacles, any heading, far enough apart, both in the
+    /// main part of the free space.
     fn pair(&self, random: &mut Stream) -> Result<Pair, NoPair> {
         let (min, max) = (self.world.bounds.min, self.world.bounds.max);
         let radius = self.world.target_radius;
@@ -95,13 +101,16 @@ impl<'a> PairSampler<'a> {
             let y = random.within(min[1], max[1]);
             let heading = random.within(-PI, PI);
             let goal = [random.within(min[0], max[0]), random.within(min[1], max[1])];
-            let pair = Pair { start: [x, y, heading], goal };
-            if distance([x, y], goal) >= self.min_distance
-                && !self.world.blocks(&self.body, &Pose::new(x, y, heading))
-                && !self.world.blocks_disc(goal, radius)
-                && self.space.connects([x, y], goal, radius)
+            if distance([x, y], goal) < self.min_distance || self.world.blocks_disc(goal, radius) {
+                continue;
+            }
+            let pose = Pose::new(x, y, heading);
+            let middle = pose.to_world((self.body.front + self.body.rear) * 0.5, 0.0);
+            if !self.world.blocks(&self.body, &pose)
+                && self.space.main_part_reaches([middle.0, middle.1], 0.0)
+                && self.space.main_part_reaches(goal, radius)
             {
-                return Ok(pair);
+                return Ok(Pair { start: [x, y, heading], goal });
             }
         }
         Err(NoPair { min_distance: self.min_distance, tries: TRIES })

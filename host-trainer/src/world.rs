@@ -7,7 +7,7 @@
 mod build;
 pub mod check;
 pub mod free_space;
-mod walls;
+mod obstacles;
 
 use crate::scenario::Bounds;
 use controller_core::geometry::{Body, Disc, Ray, Segment};
@@ -15,8 +15,8 @@ use controller_core::motion::Pose;
 use parry2d::math::Vector;
 use parry2d::utils::point_in_poly2d;
 
-pub use build::WorldError;
-pub use walls::Walls;
+pub use build::{MAX_OUTLINE, WorldError};
+pub use obstacles::Obstacles;
 
 /// Walls are lengthened by this much at both ends, metres, so that a beam aimed exactly at a
 /// corner cannot slip between the two walls that meet there.
@@ -31,8 +31,7 @@ pub struct World {
     pub bounds: Bounds,
     /// Radius of the target disc, metres.
     pub target_radius: f32,
-    walls: Walls,
-    discs: Vec<Disc<f32>>,
+    obstacles: Obstacles,
     solids: Vec<Solid>,
     sheets: Vec<[f32; 4]>,
 }
@@ -45,21 +44,28 @@ enum Solid {
 }
 
 impl World {
-    /// Distance along the ray to the nearest obstacle, or infinity, metres.
+    /// Distance along the ray to the nearest obstacle, metres; infinity, or anything past
+    /// `range`, if there is none within it.
     #[inline]
     pub fn distance(&self, ray: &Ray<f32>, range: f32) -> f32 {
-        let mut nearest = self.walls.distance(ray, range);
-        for disc in &self.discs {
-            let distance = ray.to_disc(disc);
-            nearest = if distance < nearest { distance } else { nearest };
-        }
-        nearest
+        self.obstacles.distance(ray, range)
     }
 
     /// Whether the body at this pose touches an obstacle's edge.
     #[inline]
     pub fn touches(&self, body: &Body<f32>, pose: &Pose<f32>) -> bool {
-        self.walls.touch(body, pose) || self.discs.iter().any(|disc| body.touches_disc(pose, disc))
+        self.obstacles.touch(body, pose)
+    }
+
+    /// Whether an obstacle's edge lies between two points.
+    pub fn separates(&self, from: [f32; 2], to: [f32; 2]) -> bool {
+        let length = distance(from, to);
+        if length == 0.0 {
+            return false;
+        }
+        let direction = ((to[0] - from[0]) / length, (to[1] - from[1]) / length);
+        let ray = Ray { origin: (from[0], from[1]), direction };
+        self.distance(&ray, length) <= length
     }
 
     /// Whether a body at this pose overlaps an obstacle, edge or inside.
@@ -76,24 +82,19 @@ impl World {
     /// Distance from a point to the nearest obstacle's edge, metres; not looked for beyond
     /// `most`, which is then the answer.
     pub fn clearance(&self, point: [f32; 2], most: f32) -> f32 {
-        let mut nearest = self.walls.clearance(point, most);
-        for disc in &self.discs {
-            let away = distance([disc.centre.0, disc.centre.1], point) - disc.radius;
-            nearest = nearest.min(away.max(0.0));
-        }
-        nearest
+        self.obstacles.clearance(point, most)
     }
 
     /// Whether a point lies inside something solid.
     pub fn is_inside_obstacle(&self, point: [f32; 2]) -> bool {
         let in_disc =
             |disc: &Disc<f32>| distance([disc.centre.0, disc.centre.1], point) <= disc.radius;
-        self.discs.iter().any(in_disc) || self.solids.iter().any(|solid| solid.contains(point))
+        self.discs().iter().any(in_disc) || self.solids.iter().any(|solid| solid.contains(point))
     }
 
     /// Every wall, lengthened by [`CORNER_OVERLAP`].
     pub fn segments(&self) -> &[Segment<f32>] {
-        self.walls.segments()
+        self.obstacles.walls()
     }
 
     /// Every solid polygon: boxes, polygons and the pieces of thick walls.
@@ -113,7 +114,7 @@ impl World {
 
     /// Every disc.
     pub fn discs(&self) -> &[Disc<f32>] {
-        &self.discs
+        self.obstacles.discs()
     }
 }
 

@@ -17,6 +17,17 @@ pub type Segment = [[f32; 2]; 2];
 /// The arguments are those of [`OccupancyMap::is_obstacle`]. Takes time and memory in
 /// proportion to the cells and the segments.
 pub fn trace(map: &OccupancyMap, unknown_is_obstacle: bool, lethal: u8) -> Vec<Segment> {
+    trace_within(map, unknown_is_obstacle, lethal, usize::MAX).unwrap_or_default()
+}
+
+/// The same outline if it has at most `most` segments, else none: a map of noise has nearly as
+/// many as cells, and this gives up on it early.
+pub fn trace_within(
+    map: &OccupancyMap,
+    unknown_is_obstacle: bool,
+    lethal: u8,
+    most: usize,
+) -> Option<Vec<Segment>> {
     let width = map.width as usize;
     let mut outline = Outline { map, segments: Vec::new() };
     // One more column than the map has stands for the outside at both ends: index 0 is left
@@ -39,9 +50,12 @@ pub fn trace(map: &OccupancyMap, unknown_is_obstacle: bool, lethal: u8) -> Vec<S
             let side = Side::between(here[x], here[x + 1]);
             outline.extend(&mut upright[x], side, x as u32, y, Axis::Upright);
         }
+        if outline.segments.len() > most {
+            return None;
+        }
         std::mem::swap(&mut below, &mut here);
     }
-    outline.segments
+    Some(outline.segments)
 }
 
 /// Which side of a grid line is obstacle.

@@ -6,18 +6,33 @@ use crate::scenario::{Scenario, Wall, WorldSpec};
 use controller_core::geometry::{Disc, Segment};
 use parry2d::math::Vector;
 use std::fmt;
+use std::path::PathBuf;
+
+/// Most straight pieces of a map's outline. A clean map of a building has thousands.
+pub const MAX_OUTLINE: usize = 1 << 20;
 
 /// Why a scenario has no world.
 #[derive(Debug)]
 pub enum WorldError {
     /// Its map cannot be read.
     Map(MapError),
+    /// Its map's outline has more than [`MAX_OUTLINE`] straight pieces.
+    TooRough {
+        /// The map's YAML file.
+        yaml: PathBuf,
+    },
 }
 
 impl fmt::Display for WorldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Map(error) => error.fmt(f),
+            Self::TooRough { yaml } => write!(
+                f,
+                "{}: the outline of the map's obstacles has more than {MAX_OUTLINE} straight \
+                 pieces, expected fewer: remove the noise, coarsen the map or crop it",
+                yaml.display()
+            ),
         }
     }
 }
@@ -28,6 +43,7 @@ impl From<WorldError> for crate::failure::Failure {
     fn from(error: WorldError) -> Self {
         match error {
             WorldError::Map(error) => error.into(),
+            WorldError::TooRough { .. } => Self::bad_input(error.to_string()),
         }
     }
 }
@@ -37,10 +53,10 @@ impl World {
     ///
     /// # Errors
     ///
-    /// A map that cannot be read.
+    /// A map that cannot be read, or whose outline is too rough to drive in.
     pub fn new(scenario: &Scenario) -> Result<Self, WorldError> {
         let spec = &scenario.world;
-        let mut parts = Parts::default();
+        let mut parts = Parts { range: scenario.sensors.range, ..Parts::default() };
         if spec.outer_wall {
             let [x0, y0] = spec.bounds.min;
             let [x1, y1] = spec.bounds.max;
@@ -50,7 +66,9 @@ impl World {
         if let Some(map_spec) = &spec.map {
             let map = map::load(&map_spec.yaml).map_err(WorldError::Map)?;
             let (unknown_is_obstacle, lethal) = (map_spec.unknown_is_obstacle, map_spec.lethal);
-            for [a, b] in map::trace(&map, unknown_is_obstacle, lethal) {
+            let outline = map::trace_within(&map, unknown_is_obstacle, lethal, MAX_OUTLINE);
+            let too_rough = || WorldError::TooRough { yaml: map_spec.yaml.clone() };
+            for [a, b] in outline.ok_or_else(too_rough)? {
                 parts.sheet(a, b);
             }
             parts.solids.push(Solid::Map { map: Box::new(map), unknown_is_obstacle, lethal });
@@ -58,8 +76,7 @@ impl World {
         Ok(Self {
             bounds: spec.bounds,
             target_radius: spec.target_radius,
-            walls: super::Walls::new(parts.segments),
-            discs: parts.discs,
+            obstacles: super::Obstacles::new(parts.segments, parts.discs),
             solids: parts.solids,
             sheets: parts.sheets,
         })
@@ -68,6 +85,8 @@ impl World {
 
 #[derive(Default)]
 struct Parts {
+    /// How far beams reach, metres.
+    range: f32,
     segments: Vec<Segment<f32>>,
     discs: Vec<Disc<f32>>,
     solids: Vec<Solid>,
@@ -114,7 +133,11 @@ impl Parts {
                 continue;
             }
             let (dx, dy) = (bx - ax, by - ay);
-            let scale = half / (dx * dx + dy * dy).sqrt();
+            let length = (dx * dx + dy * dy).sqrt();
+            if length == 0.0 {
+                continue;
+            }
+            let scale = half / length;
             let (nx, ny) = (-dy * scale, dx * scale);
             self.polygon(&[
                 [ax + nx, ay + ny],
@@ -134,12 +157,18 @@ impl Parts {
         self.line(a, b);
     }
 
-    /// One wall, lengthened at both ends by [`CORNER_OVERLAP`], or by a few units in the last
-    /// place where coordinates are so large that the overlap would round away.
+    /// One wall, lengthened at both ends by [`CORNER_OVERLAP`], or by some units in the last
+    /// place of the coordinates and distances met there, where that is more.
+    ///
+    /// A wall so short that its length rounds to zero is left out: nothing passes between the
+    /// walls that meet in it.
     fn line(&mut self, [ax, ay]: [f32; 2], [bx, by]: [f32; 2]) {
         let (dx, dy) = (bx - ax, by - ay);
         let length = (dx * dx + dy * dy).sqrt();
-        let largest = [ax, ay, bx, by].into_iter().map(f32::abs).fold(1.0, f32::max);
+        if length == 0.0 {
+            return;
+        }
+        let largest = [ax, ay, bx, by].into_iter().map(f32::abs).fold(self.range, f32::max);
         let overlap = CORNER_OVERLAP.max(8.0 * f32::EPSILON * largest);
         let (ux, uy) = (dx / length * overlap, dy / length * overlap);
         self.segments.push(Segment { a: (ax - ux, ay - uy), b: (bx + ux, by + uy) });

@@ -6,31 +6,37 @@ use std::collections::VecDeque;
 /// Most cells of the coarse map.
 const MAX_CELLS: usize = 1 << 22;
 
-/// Cells where a disc of the car's half width is clear of obstacles, labelled by connected part.
+/// Cells in which a disc of a given radius is clear of obstacles, labelled by connected part.
+///
+/// A world too large for cells as fine as the disc has no such map: everything in it counts as
+/// connected.
 #[derive(Debug)]
 pub struct FreeSpace {
     origin: [f32; 2],
     cell: f32,
     width: usize,
     height: usize,
-    /// 0 is blocked; equal labels hang together.
+    /// 0 is blocked; equal labels hang together. Empty in a world that is too large.
     labels: Vec<u32>,
+    /// The label of the largest part outside of solid things, or 0 if there is none.
+    main: u32,
 }
 
 impl FreeSpace {
-    /// Maps a world's bounds for a car of this half width, metres.
-    ///
-    /// Cells are half a half width large, or larger in worlds past four million such cells.
-    pub fn new(world: &World, half_width: f32) -> Self {
+    /// Maps a world's bounds for a disc of this radius, metres. Cells are half a radius large.
+    pub fn new(world: &World, radius: f32) -> Self {
         let [x0, y0] = world.bounds.min;
         let (w, h) = (world.bounds.max[0] - x0, world.bounds.max[1] - y0);
-        let cell = (half_width * 0.5).max((w * h / MAX_CELLS as f32).sqrt());
+        let cell = (radius * 0.5).max((w * h / MAX_CELLS as f32).sqrt());
         let width = ((w / cell).ceil() as usize).max(1);
         let height = ((h / cell).ceil() as usize).max(1);
-        let mut space =
-            Self { origin: [x0, y0], cell, width, height, labels: vec![u32::MAX; width * height] };
-        space.block(world, half_width);
-        space.label();
+        let mut space = Self { origin: [x0, y0], cell, width, height, labels: Vec::new(), main: 0 };
+        // A wall blocks a band of two radii; cells wider than that could lie on either side.
+        if cell <= 2.0 * radius {
+            space.labels = vec![u32::MAX; width * height];
+            space.block(world, radius);
+            space.label(world);
+        }
         space
     }
 
@@ -48,7 +54,7 @@ impl FreeSpace {
                 let (p, q) = (at(piece), at(piece + 1));
                 let low = [p.0.min(q.0) - reach, p.1.min(q.1) - reach];
                 let high = [p.0.max(q.0) + reach, p.1.max(q.1) + reach];
-                self.block_where(low, high, |middle| super::walls::away(wall, middle) <= reach);
+                self.block_where(low, high, |middle| super::obstacles::away(wall, middle) <= reach);
             }
         }
         for disc in world.discs() {
@@ -73,32 +79,47 @@ impl FreeSpace {
         }
     }
 
-    fn label(&mut self) {
-        let mut next = 0;
-        let mut queue = VecDeque::new();
+    /// Labels the parts and finds the main one.
+    fn label(&mut self, world: &World) {
+        let mut parts = Vec::new();
         for start in 0..self.labels.len() {
-            if self.labels[start] != u32::MAX {
-                continue;
+            if self.labels[start] == u32::MAX {
+                let size = self.fill(start, parts.len() as u32 + 1);
+                parts.push((size, start));
             }
-            next += 1;
-            self.labels[start] = next;
-            queue.push_back(start);
-            while let Some(cell) = queue.pop_front() {
-                let (i, j) = (cell % self.width, cell / self.width);
-                let neighbours = [
-                    (i > 0).then(|| cell - 1),
-                    (i + 1 < self.width).then(|| cell + 1),
-                    (j > 0).then(|| cell - self.width),
-                    (j + 1 < self.height).then(|| cell + self.width),
-                ];
-                for neighbour in neighbours.into_iter().flatten() {
-                    if self.labels[neighbour] == u32::MAX {
-                        self.labels[neighbour] = next;
-                        queue.push_back(neighbour);
-                    }
+        }
+        // A sort that keeps the order of equals: of two parts alike, the lower one wins.
+        parts.sort_by_key(|(size, _)| std::cmp::Reverse(*size));
+        let in_the_open = |cell: usize| {
+            let middle = self.middle(cell % self.width, cell / self.width);
+            !world.is_inside_obstacle(middle)
+        };
+        let main = parts.iter().find(|(_, cell)| in_the_open(*cell));
+        self.main = main.map_or(0, |(_, cell)| self.labels[*cell]);
+    }
+
+    /// Labels everything that hangs together with a cell, and counts it.
+    fn fill(&mut self, start: usize, label: u32) -> usize {
+        let mut queue = VecDeque::from([start]);
+        self.labels[start] = label;
+        let mut size = 0;
+        while let Some(cell) = queue.pop_front() {
+            size += 1;
+            let (i, j) = (cell % self.width, cell / self.width);
+            let neighbours = [
+                (i > 0).then(|| cell - 1),
+                (i + 1 < self.width).then(|| cell + 1),
+                (j > 0).then(|| cell - self.width),
+                (j + 1 < self.height).then(|| cell + self.width),
+            ];
+            for neighbour in neighbours.into_iter().flatten() {
+                if self.labels[neighbour] == u32::MAX {
+                    self.labels[neighbour] = label;
+                    queue.push_back(neighbour);
                 }
             }
         }
+        size
     }
 
     fn middle(&self, column: usize, row: usize) -> [f32; 2] {
@@ -128,16 +149,24 @@ impl FreeSpace {
         parts
     }
 
-    /// Whether a car's middle could get from `start` to within `radius` of `goal`, turning on
-    /// the spot. A "no" is certain up to one cell; a "yes" ignores the turning circle.
-    pub fn connects(&self, start: [f32; 2], goal: [f32; 2], radius: f32) -> bool {
-        let goal_parts = self.parts_near(goal, radius);
+    /// Size of a cell, metres.
+    pub fn cell(&self) -> f32 {
+        self.cell
+    }
+
+    /// Whether the disc could get from `start` to within `reach` of `goal`. "No" is certain for
+    /// a disc whose radius is three quarters of a [`Self::cell`] larger.
+    pub fn connects(&self, start: [f32; 2], goal: [f32; 2], reach: f32) -> bool {
+        if self.labels.is_empty() {
+            return true;
+        }
+        let goal_parts = self.parts_near(goal, reach);
         self.parts_near(start, 0.0).iter().any(|part| goal_parts.contains(part))
     }
 
-    /// Share of the bounds that is free.
-    pub fn free_share(&self) -> f32 {
-        let free = self.labels.iter().filter(|label| **label != 0).count();
-        free as f32 / self.labels.len() as f32
+    /// Whether the main part, the largest that is not inside something solid, comes within
+    /// `reach` of a point.
+    pub fn main_part_reaches(&self, point: [f32; 2], reach: f32) -> bool {
+        self.labels.is_empty() || self.parts_near(point, reach).contains(&self.main)
     }
 }
