@@ -1,0 +1,13 @@
+//! The simulator against oracles from elsewhere: parry2d, exact circles, hand-made worlds.
+
+mod barn;
+mod beams;
+mod contacts;
+mod corners;
+mod driving;
+mod episodes;
+mod fingerprint;
+mod pairs;
+mod parry;
+mod training;
+mod worlds;
