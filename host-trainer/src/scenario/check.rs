@@ -138,13 +138,14 @@ fn vehicle(scenario: &Scenario, found: &mut Vec<Complaint>) {
                 .help("shorten the step (and the period), or describe a larger body");
         found.push(complaint);
     }
-    // Headings are wrapped once per step, so a step must stay below half a turn.
+    // Up to about a quarter turn, the body after a step overlaps the body before it, so that no
+    // wall fits between them. (Headings are wrapped once per step: half a turn at most.)
     let shortest = wheelbase * (1.0 - scenario.episode.randomise.wheelbase);
-    if longest > shortest * 3.0 {
+    if longest > shortest * 1.5 {
         let detail = format!(
-            "found {shortest} m with steps of up to {longest} m, expected at least a third of the step"
+            "found {shortest} m with steps of up to {longest} m, expected at least two thirds of the step"
         );
-        let title = "the car could turn more than half a turn in one step";
+        let title = "the car could turn more than a quarter turn in one step";
         let complaint = Complaint::new("vehicle.wheelbase_m", title, detail);
         found.push(complaint.or_at("episode.randomise.wheelbase").or_at("vehicle.step_m"));
     }

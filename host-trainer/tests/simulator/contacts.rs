@@ -15,7 +15,10 @@ const DOUBT: f32 = 1.0e-5;
 /// Fails unless `ours` is the oracle's answer for a body at most [`DOUBT`] larger or smaller.
 fn agree(ours: bool, touches: impl Fn(f32) -> bool) {
     let (larger, smaller) = (touches(DOUBT), touches(-DOUBT));
-    assert!(if ours { larger } else { !smaller }, "ours {ours}, larger {larger}, smaller {smaller}");
+    assert!(
+        if ours { larger } else { !smaller },
+        "ours {ours}, larger {larger}, smaller {smaller}"
+    );
 }
 
 /// Whether any part of a wall is left when it is cut off at the body's four sides, in 64 bits

@@ -98,7 +98,7 @@ fn the_first_collision_ends_a_drive_that_stops_for_it() {
 }
 
 /// A wall without thickness is the easiest to jump. The front axle is at the very front, a step
-/// is as long as the body is wide and turns it by 88°: as far as a scenario may go.
+/// is as long as the body is wide and turns it by 82°: as far as a scenario may go.
 #[test]
 fn no_car_gets_to_the_other_side_of_a_thin_wall() {
     let problem = Problem::new(from_toml(
@@ -112,7 +112,7 @@ fn no_car_gets_to_the_other_side_of_a_thin_wall() {
         length_m = 0.2
         width_m = 0.2
         front_overhang_m = 0
-        wheelbase_m = 0.13
+        wheelbase_m = 0.14
         step_m = 0.2
         [episode]
         step_limit = 5000

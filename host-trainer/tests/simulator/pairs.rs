@@ -232,7 +232,7 @@ fn a_world_too_large_to_map_still_gives_pairs_and_makes_no_false_claims() {
 /// Every second cell of a chess board is an obstacle: four walls each.
 fn noise_map(folder: &Path, side: usize) -> Scenario {
     let mut image = format!("P5 {side} {side} 255\n").into_bytes();
-    image.extend((0..side * side).map(|i| if (i + i / side) % 2 == 0 { 0 } else { 254 }));
+    image.extend((0..side * side).map(|i| if (i + i / side).is_multiple_of(2) { 0 } else { 254 }));
     std::fs::write(folder.join("noise.pgm"), image).unwrap();
     let yaml = folder.join("noise.yaml");
     let text = "image: noise.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n\
