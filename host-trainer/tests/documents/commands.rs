@@ -8,21 +8,35 @@ use std::process::{Command, ExitStatus};
 use super::console::{self, agree, cut_like};
 use super::pages;
 
-/// How a page may call the program.
-const PROGRAM: [&str; 2] = ["cargo run --release -- ", "evosteer "];
+/// How a page may call the program: by cargo, or by its own name.
+const BY_CARGO: &str = "cargo run --release -- ";
+const BY_NAME: &str = "evosteer ";
 
-/// Runs the program in `folder`; both its streams, as a terminal would mix them.
-fn run(arguments: &str, folder: &Path) -> (String, ExitStatus) {
-    let (mut output, input) = std::io::pipe().unwrap();
+/// The program as this line calls it; none if it calls something else.
+fn program(line: &str) -> Option<Command> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_evosteer"));
-    command.args(arguments.split_whitespace()).current_dir(folder);
+    if let Some(arguments) = line.strip_prefix(BY_CARGO) {
+        command.env("CARGO_PKG_NAME", env!("CARGO_PKG_NAME")).args(arguments.split_whitespace());
+    } else {
+        command.env_remove("CARGO_PKG_NAME").args(line.strip_prefix(BY_NAME)?.split_whitespace());
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::arg0(&mut command, BY_NAME.trim());
+    }
+    Some(command)
+}
+
+/// Runs a command in `folder`; both its streams, as a terminal would mix them.
+fn run(mut command: Command, folder: &Path) -> (String, ExitStatus) {
+    let (mut output, input) = std::io::pipe().unwrap();
+    command.current_dir(folder);
     command.stdout(input.try_clone().unwrap()).stderr(input);
     let mut child = command.spawn().unwrap();
     // The command keeps ends of the pipe; reading would never end.
     drop(command);
     let mut text = String::new();
     output.read_to_string(&mut text).unwrap();
-    (text, child.wait().unwrap())
+    // Tests build the program without `--release`.
+    (text.replace("cargo run -- ", BY_CARGO), child.wait().unwrap())
 }
 
 /// The repository as far as the commands of a page use it.
@@ -53,11 +67,10 @@ fn check(page: &str) -> tempfile::TempDir {
     let mut changes = Vec::new();
     let ran = console::commands(&text);
     for command in &ran {
-        let program = PROGRAM.iter().find_map(|program| command.line.strip_prefix(program));
-        let arguments = program.unwrap_or_else(|| {
+        let program = program(command.line).unwrap_or_else(|| {
             panic!("{page}: `{}` is no call of the program: fence it as ```sh", command.line)
         });
-        let (printed, status) = run(arguments, folder.path());
+        let (printed, status) = run(program, folder.path());
         let refused = printed.lines().any(|line| line.starts_with("error: "));
         assert_eq!(status.success(), !refused, "{page}: `{}`: {status}\n{printed}", command.line);
         let printed_lines: Vec<&str> = printed.lines().map(str::trim_end).collect();

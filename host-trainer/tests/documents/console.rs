@@ -70,16 +70,12 @@ fn is_by_the_clock(line: &str) -> bool {
 
 /// A line without what differs from machine to machine.
 fn plain(line: &str) -> String {
-    let before_speed = |line: &str| match line.strip_suffix(" steps/s") {
-        Some(line) => line.rsplit_once("  ").map_or(line, |(rest, _)| rest).to_owned(),
-        None => line.to_owned(),
-    };
-    let words: Vec<&str> = line.split(' ').collect();
-    let threads = words.iter().position(|word| word.trim_end_matches(',') == "threads");
-    match threads {
-        Some(at) if at > 0 => [&words[..at - 1], &["N"], &words[at..]].concat().join(" "),
-        _ => before_speed(line),
+    if let Some(rest) = line.strip_suffix(" steps/s") {
+        return rest.rsplit_once("  ").map_or(rest, |(before, _)| before).to_owned();
     }
+    let parts: Vec<&str> = line.split(", ").collect();
+    let counts_threads = |part: &&str| part.ends_with(" threads") || part.ends_with(" thread");
+    parts.into_iter().filter(|part| !counts_threads(part)).collect::<Vec<_>>().join(", ")
 }
 
 #[test]
