@@ -5,11 +5,17 @@
 //!
 //! | look in | for |
 //! | --- | --- |
+//! | [`drivers`] | its hardware over `embedded-hal` traits |
+//! | [`calibration`] | pulses, limits and beam mounts of one car |
+//! | [`clock`] | time, and the watchdog |
 //! | [`replay`] | running recorded drives again and comparing bits |
 //! | [`recorded`] | the drives that every emulated board replays |
 //! | `emulated` (on a board only) | how such a board logs, panics and ends |
 #![cfg_attr(not(test), no_std)]
 
+pub mod calibration;
+pub mod clock;
+pub mod drivers;
 #[cfg(all(target_os = "none", feature = "emulated"))]
 pub mod emulated;
 pub mod recorded;
