@@ -5,18 +5,30 @@
 //!
 //! | look in | for |
 //! | --- | --- |
+//! | [`app`] | the program that drives a car |
 //! | [`drivers`] | its hardware over `embedded-hal` traits |
+//! | [`chassis`], [`fan`] | the car as the control loop sees it; filtered range readings |
+//! | [`weights`], [`fit`] | the blob in flash, and whether it was trained for this car |
 //! | [`calibration`] | pulses, limits and beam mounts of one car |
+//! | [`arming`], [`indicator`], [`journal`] | the button, the lamp, the log |
 //! | [`clock`] | time, and the watchdog |
 //! | [`replay`] | running recorded drives again and comparing bits |
 //! | [`recorded`] | the drives that every emulated board replays |
 //! | `emulated` (on a board only) | how such a board logs, panics and ends |
 #![cfg_attr(not(test), no_std)]
 
+pub mod app;
+pub mod arming;
 pub mod calibration;
+pub mod chassis;
 pub mod clock;
 pub mod drivers;
 #[cfg(all(target_os = "none", feature = "emulated"))]
 pub mod emulated;
+pub mod fan;
+pub mod fit;
+pub mod indicator;
+pub mod journal;
 pub mod recorded;
 pub mod replay;
+pub mod weights;
