@@ -5,7 +5,7 @@ use super::pages;
 const PAGE: &str = "ARCHITECTURE.md";
 
 /// The crates whose modules the page lists, by the heading of their table.
-const CRATES: [&str; 2] = ["controller-core", "host-trainer"];
+const CRATES: [&str; 3] = ["controller-core", "host-trainer", "firmware-example"];
 
 fn modules(package: &str) -> Vec<String> {
     let front = pages::read(&format!("{package}/src/lib.rs"));
