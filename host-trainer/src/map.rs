@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`load`] | both files, checked, as an [`OccupancyMap`] |
 //! | [`trace`] | the obstacles' outline as line segments |
+//! | [`loops`] | the same as closed loops |
 //! | `description` | the YAML: keys, defaults, refusals |
 //! | `shade` | from a pixel to a cell, per [`Mode`] |
 //! | `pgm`, `png` | the image formats |
@@ -13,6 +14,7 @@
 mod canvas;
 mod description;
 mod error;
+mod loops;
 mod numbers;
 mod pgm;
 mod png;
@@ -27,6 +29,7 @@ use std::io::{BufRead, BufReader, Cursor, ErrorKind, Read, Seek};
 use std::path::{Path, PathBuf};
 
 pub use error::{MapError, MapProblem, Place};
+pub use loops::loops;
 pub use shade::{FREE, Mode, OCCUPIED, UNKNOWN};
 pub use trace::{Segment, trace, trace_within};
 pub use yaml::UnknownKey;

@@ -20,6 +20,7 @@ pub fn scene(problem: &Problem) -> Scene {
         polygons: problem.world.polygons(),
         circles: discs.map(|disc| [disc.centre.0, disc.centre.1, disc.radius]).collect(),
         segments: problem.world.sheets().to_vec(),
+        outlines: problem.world.outlines(),
     }
 }
 

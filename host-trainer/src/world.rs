@@ -9,6 +9,7 @@ pub mod check;
 pub mod free_space;
 mod obstacles;
 
+use crate::map;
 use crate::scenario::Bounds;
 use controller_core::geometry::{Body, Disc, Ray, Segment};
 use controller_core::motion::Pose;
@@ -40,7 +41,7 @@ pub struct World {
 #[derive(Debug)]
 enum Solid {
     Polygon(Vec<Vector>),
-    Map { map: Box<crate::map::OccupancyMap>, unknown_is_obstacle: bool, lethal: u8 },
+    Map { map: Box<map::OccupancyMap>, unknown_is_obstacle: bool, lethal: u8 },
 }
 
 impl World {
@@ -106,10 +107,20 @@ impl World {
         self.solids.iter().filter_map(corners).collect()
     }
 
-    /// Every wall without an inside of its own, as `[x0, y0, x1, y1]`: thin walls, and the
-    /// outlines of a map's obstacles.
+    /// Every wall without an inside, as `[x0, y0, x1, y1]`.
     pub fn sheets(&self) -> &[[f32; 4]] {
         &self.sheets
+    }
+
+    /// Closed loops around the solid cells of the map; a point lies in one by the even-odd rule.
+    pub fn outlines(&self) -> Vec<Vec<[f32; 2]>> {
+        let outline = |solid: &Solid| match solid {
+            Solid::Polygon(_) => Vec::new(),
+            Solid::Map { map, unknown_is_obstacle, lethal } => {
+                map::loops(&map::trace(map, *unknown_is_obstacle, *lethal))
+            }
+        };
+        self.solids.iter().flat_map(outline).collect()
     }
 
     /// Every disc.

@@ -44,9 +44,11 @@ pub struct Scene {
     pub polygons: Vec<Vec<[f32; 2]>>,
     /// Solid discs as `[x, y, radius]`.
     pub circles: Vec<[f32; 3]>,
-    /// Walls without thickness as `[x0, y0, x1, y1]`; the outline of a solid occupancy
-    /// grid is given this way.
+    /// Walls without thickness as `[x0, y0, x1, y1]`.
     pub segments: Vec<[f32; 4]>,
+    /// Closed loops around the solid cells of an occupancy grid: what they wind around an odd
+    /// number of times is solid.
+    pub outlines: Vec<Vec<[f32; 2]>>,
 }
 
 /// The car's rectangle. The reference point is the middle of the front axle.

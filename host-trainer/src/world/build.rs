@@ -69,7 +69,7 @@ impl World {
             let outline = map::trace_within(&map, unknown_is_obstacle, lethal, MAX_OUTLINE);
             let too_rough = || WorldError::TooRough { yaml: map_spec.yaml.clone() };
             for [a, b] in outline.ok_or_else(too_rough)? {
-                parts.sheet(a, b);
+                parts.line(a, b);
             }
             parts.solids.push(Solid::Map { map: Box::new(map), unknown_is_obstacle, lethal });
         }

@@ -61,6 +61,7 @@ pub(crate) fn scene() -> Scene {
         polygons: BOXES.map(polygon).to_vec(),
         circles: Vec::new(),
         segments: Vec::new(),
+        outlines: Vec::new(),
     }
 }
 

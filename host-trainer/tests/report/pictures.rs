@@ -15,6 +15,7 @@ fn bump() -> (Scene, Drive) {
         polygons: vec![vec![[1.0, 0.0], [1.2, 0.0], [1.2, 0.5], [1.0, 0.5]]],
         circles: Vec::new(),
         segments: vec![[0.0, 0.8, 0.4, 0.8], [0.4, 0.8, 0.4, 1.0]],
+        outlines: Vec::new(),
     };
     let mut drive = fixture::clean();
     drive.moments.truncate(4);

@@ -3,6 +3,7 @@ const canvas = byId("canvas");
 const pen = canvas.getContext("2d");
 const [[left, bottom], [right, top_]] = packed.bounds;
 const outline = {
+  map: new Path2D(byId("world-map").getAttribute("d")),
   solid: new Path2D(byId("world-solid").getAttribute("d")),
   lines: new Path2D(byId("world-lines").getAttribute("d")),
 };
@@ -69,6 +70,9 @@ function worldBitmap(view) {
   context.fillStyle = context.strokeStyle = colours.wall;
   context.lineJoin = context.lineCap = "round";
   context.fill(outline.solid);
+  context.fill(outline.map, "evenodd");
+  context.lineWidth = 0.7 * pixel;
+  context.stroke(outline.map);
   context.lineWidth = 1.6 * pixel;
   context.stroke(outline.lines);
   context.lineWidth = packed.outer_wall ? 3 * pixel : pixel;
