@@ -21,4 +21,4 @@ pub mod plots;
 mod palette;
 mod svg;
 
-pub use map::scene_svg;
+pub use map::{scene_svg, tasks_svg};

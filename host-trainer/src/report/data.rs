@@ -64,6 +64,17 @@ pub struct BodyShape {
     pub wheelbase: f32,
 }
 
+/// One task to show on a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Task {
+    /// A short name, written at start and goal.
+    pub label: String,
+    /// Start pose of the front axle: x, y, heading.
+    pub start: [f32; 3],
+    /// Centre of the target disc.
+    pub goal: [f32; 2],
+}
+
 /// One task, and how the car did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {

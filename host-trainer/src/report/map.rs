@@ -5,11 +5,13 @@
 
 mod drive;
 mod frame;
+mod tasks;
 mod world;
 
 pub(super) use drive::trajectory_on_shared_world;
 pub use drive::trajectory_svg;
 pub(super) use frame::FONTS;
+pub use tasks::tasks_svg;
 pub(super) use world::shared_world;
 
 use super::data::Scene;

@@ -49,7 +49,7 @@ fn picture(
         out.push_str(&path(frame, &drive.moments[lap..], LOOP, 3.5));
     }
     if let Some(end) = drive.moments.last() {
-        out.push_str(&car(frame, body, end));
+        out.push_str(&car(frame, body, [end.x, end.y, end.heading]));
     }
     out.push_str(&crosses(frame, &drive.moments));
     out.push_str(&square(goal));
@@ -96,12 +96,12 @@ fn crosses(frame: &Frame, moments: &[Moment]) -> String {
     )
 }
 
-fn car(frame: &Frame, body: &BodyShape, at: &Moment) -> String {
-    let (sin, cos) = (libm::sinf(at.heading), libm::cosf(at.heading));
+pub(super) fn car(frame: &Frame, body: &BodyShape, [x, y, heading]: [f32; 3]) -> String {
+    let (sin, cos) = (libm::sinf(heading), libm::cosf(heading));
     let (front, rear) = (body.front_overhang, body.front_overhang - body.length);
     let half = body.width / 2.0;
-    let corners = [(front, half), (front, -half), (rear, -half), (rear, half)].map(|(x, y)| {
-        let [x, y] = frame.place([at.x + x * cos - y * sin, at.y + x * sin + y * cos]);
+    let corners = [(front, half), (front, -half), (rear, -half), (rear, half)].map(|(dx, dy)| {
+        let [x, y] = frame.place([x + dx * cos - dy * sin, y + dx * sin + dy * cos]);
         format!("{},{}", Num(tenth(x)), Num(tenth(y)))
     });
     format!(
@@ -110,7 +110,7 @@ fn car(frame: &Frame, body: &BodyShape, at: &Moment) -> String {
     )
 }
 
-fn disc([x, y]: [f64; 2], radius: f64) -> String {
+pub(super) fn disc([x, y]: [f64; 2], radius: f64) -> String {
     format!(
         "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{GOAL_SOFT}\" stroke=\"{GOAL}\"/>\n",
         Num(x),
@@ -119,7 +119,7 @@ fn disc([x, y]: [f64; 2], radius: f64) -> String {
     )
 }
 
-fn square([x, y]: [f64; 2]) -> String {
+pub(super) fn square([x, y]: [f64; 2]) -> String {
     format!(
         "<rect x=\"{}\" y=\"{}\" width=\"9\" height=\"9\" fill=\"{GOAL}\" stroke=\"{PAPER}\"/>\n",
         Num(x - 4.5),

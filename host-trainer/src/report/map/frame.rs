@@ -27,6 +27,11 @@ pub(super) struct Frame {
 impl Frame {
     /// Fits a room given by its lower left and upper right corner.
     pub(super) fn new(bounds: [[f32; 2]; 2]) -> Self {
+        Self::sized(bounds, LONG_SIDE)
+    }
+
+    /// The same with this many pixels on the room's longer side.
+    pub(super) fn sized(bounds: [[f32; 2]; 2], long_side: f64) -> Self {
         let [min, max] = bounds.map(|corner| corner.map(f64::from));
         // An empty or non-finite room still gives a well-formed picture.
         let side = |axis: usize| {
@@ -35,7 +40,7 @@ impl Frame {
         };
         let size = [side(0), side(1)];
         let min = min.map(|corner| if corner.is_finite() { corner } else { 0.0 });
-        Self { min, size, scale: LONG_SIDE / size[0].max(size[1]) }
+        Self { min, size, scale: long_side / size[0].max(size[1]) }
     }
 
     /// Where a point in metres lies in the picture, pixels.
