@@ -1,7 +1,11 @@
 //! Where a car can be: a coarse map of the free space and which parts of it hang together.
 
+mod parts;
+
 use super::{World, distance};
 use std::collections::VecDeque;
+
+pub use parts::Part;
 
 /// Most cells of the coarse map.
 const MAX_CELLS: usize = 1 << 22;
