@@ -1,6 +1,6 @@
 //! The command line: what was typed, and the exit code it ends in.
 
-use crate::commands::{evaluate, export, inspect, replay, train};
+use crate::commands::{evaluate, export, inspect, replay, scenario, train};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::signals::StopFlag;
@@ -21,6 +21,7 @@ enum Command {
     Train(train::TrainArgs),
     Evaluate(evaluate::EvaluateArgs),
     Replay(replay::ReplayArgs),
+    Scenario(scenario::ScenarioArgs),
     Export(export::ExportArgs),
     Inspect(inspect::InspectArgs),
 }
@@ -31,6 +32,7 @@ impl Command {
             Self::Train(args) => args.json,
             Self::Evaluate(args) => args.json,
             Self::Replay(args) => args.json,
+            Self::Scenario(args) => args.wants_json(),
             Self::Export(args) => args.json,
             Self::Inspect(args) => args.json,
         }
@@ -42,6 +44,7 @@ impl Command {
             Self::Train(args) => train::run(args, &stop, output),
             Self::Evaluate(args) => evaluate::run(args, output),
             Self::Replay(args) => replay::run(args, output),
+            Self::Scenario(args) => scenario::run(args, output),
             Self::Export(args) => export::run(args, output),
             Self::Inspect(args) => inspect::run(args, output),
         }

@@ -5,5 +5,6 @@ pub mod evaluate;
 pub mod export;
 pub mod inspect;
 pub mod replay;
+pub mod scenario;
 mod setup;
 pub mod train;
