@@ -11,9 +11,15 @@ pub(crate) fn root() -> PathBuf {
 /// Every page of the documentation, relative to the repository; sorted.
 pub(crate) fn all() -> Vec<String> {
     let mut found = Vec::new();
-    for folder in
-        ["", "docs", "controller-core", "controller-core/docs", "firmware-example", "host-trainer"]
-    {
+    for folder in [
+        "",
+        "docs",
+        "controller-core",
+        "controller-core/docs",
+        "firmware-example",
+        "host-trainer",
+        "scenarios",
+    ] {
         for entry in fs::read_dir(root().join(folder)).unwrap() {
             let name = entry.unwrap().file_name().into_string().unwrap();
             if name.ends_with(".md") {
