@@ -7,16 +7,25 @@ mod support;
 #[path = "emulated/riscv_support.rs"]
 mod support;
 
-use crate::{recorded, replay};
+use crate::any_controller::Refusal;
+use crate::{closed_loop, recorded, replay, weights_region};
+use controller_core::blob::BlobError;
 // Linked for its global logger: defmt frames leave through semihosting.
 use defmt_semihosting as _;
 use semihosting::process;
 
-/// Replays every recorded drive, reports each, and ends the run.
+/// What flash reads as before anything is written to it.
+const ERASED: [u8; 8] = [0xff; 8];
+
+/// Steps in the room.
+const STEPS: u32 = 200;
+
+/// Replays every recorded drive, drives with the weights in flash if there are any, reports each, and
+/// ends the run: badly if a bit differed or weights were refused.
 pub fn run() -> ! {
     sabotage();
     let mut all_agree = true;
-    for recorded::Drive { name, blob, recording } in recorded::all() {
+    for &recorded::Drive { name, blob, recording } in recorded::ALL {
         match replay::replay(blob, recording) {
             Ok(steps) => defmt::info!("{=str}: {=usize} steps, every bit as recorded", name, steps),
             Err(error) => {
@@ -25,7 +34,31 @@ pub fn run() -> ! {
             }
         }
     }
-    if all_agree { succeed() } else { fail() }
+    let usable = drive_with_weights_in_flash();
+    if all_agree && usable { succeed() } else { fail() }
+}
+
+/// False if there is something else than usable weights; erased flash is no fault of a board's.
+fn drive_with_weights_in_flash() -> bool {
+    match closed_loop::drive(weights_region::bytes(), STEPS) {
+        Ok(closed_loop::Drive { weights, digest }) => {
+            defmt::info!(
+                "weights {=u64:016x}: {=u32} steps in the room, digest {=u64:016x}",
+                weights,
+                STEPS,
+                digest
+            );
+            true
+        }
+        Err(refusal @ Refusal::Blob(BlobError::Magic { found: ERASED })) => {
+            defmt::warn!("not driving: {}", defmt::Display2Format(&refusal));
+            true
+        }
+        Err(refusal) => {
+            defmt::error!("not driving: {}", defmt::Display2Format(&refusal));
+            false
+        }
+    }
 }
 
 /// Ends the run well: QEMU exits with code 0.

@@ -9,19 +9,24 @@
 //! | [`drivers`] | its hardware over `embedded-hal` traits |
 //! | [`chassis`], [`fan`] | the car as the control loop sees it; filtered range readings |
 //! | [`weights`], [`fit`] | the blob in flash, and whether it was trained for this car |
+//! | `weights_region` (on a board only) | where that blob lies |
 //! | [`calibration`] | pulses, limits and beam mounts of one car |
 //! | [`arming`], [`indicator`], [`journal`] | the button, the lamp, the log |
 //! | [`clock`] | time, and the watchdog |
+//! | [`any_controller`] | a controller for whichever network and tanh a blob names, open to inspection |
+//! | [`closed_loop`], [`room`] | driving through a room of our own, as a digest |
 //! | [`replay`] | running recorded drives again and comparing bits |
 //! | [`recorded`] | the drives that every emulated board replays |
 //! | `emulated` (on a board only) | how such a board logs, panics and ends |
 #![cfg_attr(not(test), no_std)]
 
+pub mod any_controller;
 pub mod app;
 pub mod arming;
 pub mod calibration;
 pub mod chassis;
 pub mod clock;
+pub mod closed_loop;
 pub mod drivers;
 #[cfg(all(target_os = "none", feature = "emulated"))]
 pub mod emulated;
@@ -31,4 +36,7 @@ pub mod indicator;
 pub mod journal;
 pub mod recorded;
 pub mod replay;
+pub mod room;
 pub mod weights;
+#[cfg(target_os = "none")]
+pub mod weights_region;

@@ -35,12 +35,14 @@ macro_rules! drive {
     };
 }
 
+/// The drive that a board with little flash goes without: other drives have its recurrence and its activation.
+pub const SPARE: &str = "elman-rational";
+
 /// Every recurrence and every activation at least once.
-pub fn all() -> [Drive; 4] {
-    [
-        drive!("feedforward-rational"),
-        drive!("self-libm"),
-        drive!("elman-rational"),
-        drive!("elman-micromath"),
-    ]
-}
+pub static ALL: &[Drive] = &[
+    drive!("feedforward-rational"),
+    drive!("self-libm"),
+    #[cfg(not(feature = "little-flash"))]
+    drive!("elman-rational"),
+    drive!("elman-micromath"),
+];

@@ -1,28 +1,15 @@
 //! Drives a recorded drive again and compares every bit with the recording.
 
-use controller_core::activation::{Activation, ActivationKind, Libm, Micromath, Rational};
-use controller_core::blob::{Blob, BlobError, SelfTestError, WrongTopology};
-use controller_core::control_loop::Decide;
-use controller_core::controller::Controller;
-use controller_core::network::{Elman, Feedforward, Recurrence, RecurrenceKind, SelfLoop};
+use crate::any_controller::{AnyController, HIDDEN, OUTPUTS, Refusal, with_controller};
+use controller_core::blob::Blob;
 use controller_core::recording::{Difference, Recording, RecordingError};
 use core::fmt;
-
-/// Width of the hidden layers this program has code for.
-pub const HIDDEN: usize = 12;
-
-/// Outputs of the networks this program has code for.
-pub const OUTPUTS: usize = 1;
 
 /// Why a replay did not end with equal bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ReplayError {
-    /// The weights are no blob.
-    Blob(BlobError),
-    /// The blob holds a network that this program has no code for.
-    Topology(WrongTopology),
-    /// This machine fails the blob's own test.
-    SelfTest(SelfTestError),
+    /// The weights cannot be used.
+    Weights(Refusal),
     /// The recording cannot be read.
     Recording(RecordingError),
     /// Other weights drove when the recording was made.
@@ -44,9 +31,7 @@ pub enum ReplayError {
 impl fmt::Display for ReplayError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Blob(error) => write!(f, "weights refused: {error}"),
-            Self::Topology(error) => write!(f, "weights refused: {error}"),
-            Self::SelfTest(error) => error.fmt(f),
+            Self::Weights(error) => error.fmt(f),
             Self::Recording(error) => write!(f, "recording refused: {error}"),
             Self::OtherWeights { found, expected } => {
                 write!(f, "weights {found:016x} given, weights {expected:016x} drove")
@@ -58,6 +43,12 @@ impl fmt::Display for ReplayError {
 
 impl core::error::Error for ReplayError {}
 
+impl From<Refusal> for ReplayError {
+    fn from(refusal: Refusal) -> Self {
+        Self::Weights(refusal)
+    }
+}
+
 /// Replays `recording` with the weights in `blob`; returns how many steps agreed in every bit.
 ///
 /// Both must start at a multiple of 4 bytes.
@@ -67,36 +58,21 @@ impl core::error::Error for ReplayError {}
 /// The first thing that is wrong with the weights, this machine, or the recording; or the first
 /// difference.
 pub fn replay(blob: &[u8], recording: &[u8]) -> Result<usize, ReplayError> {
-    let blob = Blob::parse(blob).map_err(ReplayError::Blob)?;
-    match blob.header().topology.recurrence {
-        RecurrenceKind::Feedforward => with_recurrence::<Feedforward>(&blob, recording),
-        RecurrenceKind::SelfLoop => with_recurrence::<SelfLoop>(&blob, recording),
-        RecurrenceKind::Elman => with_recurrence::<Elman>(&blob, recording),
-    }
+    let blob = Blob::parse(blob).map_err(Refusal::Blob)?;
+    with_controller(&blob, |controller| compare(&blob, controller, recording))?
 }
 
-fn with_recurrence<R: Recurrence>(blob: &Blob<'_>, recording: &[u8]) -> Result<usize, ReplayError> {
-    match blob.header().activation {
-        ActivationKind::Rational => compare::<R>(blob, Rational, recording),
-        ActivationKind::Libm => compare::<R>(blob, Libm, recording),
-        ActivationKind::Micromath => compare::<R>(blob, Micromath, recording),
-    }
-}
-
-fn compare<R: Recurrence>(
+fn compare(
     blob: &Blob<'_>,
-    activation: impl Activation,
+    controller: &mut dyn AnyController,
     recording: &[u8],
 ) -> Result<usize, ReplayError> {
-    let network = blob.network::<R, HIDDEN, OUTPUTS>().map_err(ReplayError::Topology)?;
-    blob.self_test::<R, HIDDEN, OUTPUTS>(activation).map_err(ReplayError::SelfTest)?;
     let recording =
         Recording::<HIDDEN, OUTPUTS>::parse(recording).map_err(ReplayError::Recording)?;
     let (found, expected) = (blob.check(), recording.blob_check());
     if found != expected {
         return Err(ReplayError::OtherWeights { found, expected });
     }
-    let mut controller = Controller::new(network, activation, blob.scaling());
     let mut agreed = 0;
     for (step, recorded) in recording.steps().enumerate() {
         let reading = recorded.reading(blob.scaling().range);

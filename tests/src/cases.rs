@@ -5,10 +5,10 @@ use controller_core::blob::{Header, Provenance};
 use controller_core::controller::Scaling;
 use controller_core::network::{Elman, Feedforward, Network, Recurrence, SelfLoop, State};
 use controller_core::observation::{DistanceLaw, Encoding, INPUTS, TypeCode};
-use firmware_example::replay::{HIDDEN, OUTPUTS};
+use firmware_example::any_controller::{HIDDEN, OUTPUTS};
+use firmware_example::room;
 
 use crate::drive::{Recorded, record};
-use crate::room;
 
 /// Every recorded drive under the name of its files.
 pub fn all() -> [(&'static str, Recorded); 4] {

@@ -8,19 +8,11 @@ use controller_core::motion::Pose;
 use controller_core::network::{Network, Recurrence, State};
 use controller_core::observation::{BEAMS, Echo, INPUTS, Reading};
 use controller_core::recording;
-use firmware_example::replay::{HIDDEN, OUTPUTS};
-
-use crate::room;
+use firmware_example::any_controller::{HIDDEN, OUTPUTS};
+use firmware_example::room;
 
 /// Steps of a drive.
 pub const STEPS: u32 = 200;
-
-/// Steps after which the car is put elsewhere, so that a circling one still sees the room.
-const STEPS_PER_START: u32 = 40;
-
-/// Where the car is put in turn: metres, metres, radians.
-const STARTS: [(f32, f32, f32); 5] =
-    [(1.0, 1.0, 0.8), (8.5, 8.5, -2.4), (1.0, 8.0, -0.3), (8.5, 2.0, 2.0), (4.2, 4.8, 1.5)];
 
 /// A drive as bytes, words first so that they can be read in place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,16 +65,14 @@ pub fn record<R: Recurrence>(
     let mut words = recording::header::<HIDDEN, OUTPUTS>(STEPS, check).to_vec();
     let mut pose = Pose::new(0.0, 0.0, 0.0);
     for step in 0..STEPS {
-        if step.is_multiple_of(STEPS_PER_START) {
-            let (x, y, heading) = STARTS[(step / STEPS_PER_START) as usize % STARTS.len()];
-            pose = Pose::new(x, y, heading);
-        }
-        let (echoes, age) = with_faults(step, room::look(&pose));
+        pose = room::start(step).unwrap_or(pose);
+        let sight = room::look(&pose, &header.beams, header.scaling.range);
+        let (echoes, age) = with_faults(step, sight);
         let reading = Reading::new(echoes, age, header.scaling.range);
         let command = controller.decide(reading.as_ref().map_err(|error| *error));
         words.extend(recording::sensed(&echoes, age));
         words.extend(recording::values(command, controller.outputs(), controller.state()));
-        pose = room::drive(&pose, command.steer.radians(), command.step.metres());
+        pose = room::drive(&pose, command, header.wheelbase);
     }
     words.extend(recording::check(&words));
     Recorded { blob, recording: words }

@@ -4,7 +4,6 @@
 //! | --- | --- |
 //! | [`cases`] | the recorded drives, made anew from seeds |
 //! | [`drive`] | a drive from weights and a room to blob and recording |
-//! | [`room`] | what the beams see in a room, in core's own arithmetic |
 //! | [`harness`] | tests that may be impossible here and then say so |
 //!
 //! The drives are recorded with `controller-core` only, so no simulator setting can change them.
@@ -12,4 +11,3 @@
 pub mod cases;
 pub mod drive;
 pub mod harness;
-pub mod room;

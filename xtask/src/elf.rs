@@ -1,4 +1,5 @@
-//! The few fields of a 32-bit little-endian ELF file that tell how much memory a program takes.
+//! The few fields of a 32-bit little-endian ELF file that tell how much memory a program takes, and
+//! where the linker put a name.
 
 /// Bytes a program takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -9,38 +10,81 @@ pub(crate) struct Size {
     pub(crate) ram: u64,
 }
 
+const SECTION_SYMBOLS: u32 = 2;
 const SECTION_NOBITS: u32 = 8;
 const FLAG_WRITE: u32 = 1;
 const FLAG_ALLOC: u32 = 2;
+const SYMBOL_BYTES: usize = 16;
+const CUT: &str = "the ELF file is cut short";
 
 /// What `riscv-rt` calls the memory left over; a section there, but nobody's variables.
 const LEFT_OVER: [&[u8]; 2] = [b".stack\0", b".heap\0"];
 
 /// Adds up the sections that are loaded or reserved on the device.
 pub(crate) fn size(elf: &[u8]) -> Result<Size, &'static str> {
-    const CUT: &str = "the ELF file is cut short";
+    let sections = sections(elf)?;
+    let names = sections.get(half(elf, 50).ok_or(CUT)?).ok_or(CUT)?.file_offset;
+    let mut size = Size::default();
+    for section in sections {
+        let name = elf.get(names + section.name..).ok_or(CUT)?;
+        if section.flags & FLAG_ALLOC == 0 || LEFT_OVER.iter().any(|other| name.starts_with(other))
+        {
+            continue;
+        }
+        let (stored, variable) = (section.kind != SECTION_NOBITS, section.flags & FLAG_WRITE != 0);
+        size.flash += if stored { section.bytes as u64 } else { 0 };
+        size.ram += if variable { section.bytes as u64 } else { 0 };
+    }
+    Ok(size)
+}
+
+/// The address of a name, if the program has it.
+pub(crate) fn address(elf: &[u8], name: &str) -> Result<Option<u32>, &'static str> {
+    let sections = sections(elf)?;
+    for table in sections.iter().filter(|section| section.kind == SECTION_SYMBOLS) {
+        let names = sections.get(table.link).ok_or(CUT)?.file_offset;
+        for symbol in (0..table.bytes / SYMBOL_BYTES).map(|i| table.file_offset + i * SYMBOL_BYTES)
+        {
+            let its_name = names + word(elf, symbol).ok_or(CUT)? as usize;
+            let rest = elf.get(its_name..).ok_or(CUT)?.strip_prefix(name.as_bytes());
+            if rest.is_some_and(|rest| rest.first() == Some(&0)) {
+                return word(elf, symbol + 4).ok_or(CUT).map(Some);
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// One row of the section table.
+struct Section {
+    name: usize,
+    kind: u32,
+    flags: u32,
+    file_offset: usize,
+    bytes: usize,
+    link: usize,
+}
+
+fn sections(elf: &[u8]) -> Result<Vec<Section>, &'static str> {
     if !elf.starts_with(b"\x7fELF\x01\x01") {
         return Err("not a 32-bit little-endian ELF file");
     }
     let table = word(elf, 32).ok_or(CUT)? as usize;
     let entry_size = half(elf, 46).ok_or(CUT)?;
     let count = half(elf, 48).ok_or(CUT)?;
-    let names = half(elf, 50).ok_or(CUT)?;
-    let names = word(elf, table + names * entry_size + 16).ok_or(CUT)? as usize;
-    let mut size = Size::default();
-    for index in 0..count {
-        let section = table + index * entry_size;
-        let field = |offset| word(elf, section + offset).ok_or(CUT);
-        let (kind, flags, bytes) = (field(4)?, field(8)?, u64::from(field(20)?));
-        let name = elf.get(names + field(0)? as usize..).ok_or(CUT)?;
-        if flags & FLAG_ALLOC == 0 || LEFT_OVER.iter().any(|other| name.starts_with(other)) {
-            continue;
-        }
-        let (stored, variable) = (kind != SECTION_NOBITS, flags & FLAG_WRITE != 0);
-        size.flash += if stored { bytes } else { 0 };
-        size.ram += if variable { bytes } else { 0 };
-    }
-    Ok(size)
+    (0..count)
+        .map(|index| {
+            let field = |offset| word(elf, table + index * entry_size + offset).ok_or(CUT);
+            Ok(Section {
+                name: field(0)? as usize,
+                kind: field(4)?,
+                flags: field(8)?,
+                file_offset: field(16)? as usize,
+                bytes: field(20)? as usize,
+                link: field(24)? as usize,
+            })
+        })
+        .collect()
 }
 
 fn word(bytes: &[u8], at: usize) -> Option<u32> {
@@ -58,25 +102,43 @@ mod tests {
     /// Where each name starts among the names.
     const UNNAMED: u32 = 0;
     const STACK: u32 = 1;
+    const WEIGHTS: u32 = 8;
+    const NAMES: &[u8] = b"\0.stack\0_weights_start\0";
 
-    /// A header and one entry per `(name, type, flags, size)`; the first holds the names.
+    /// Two symbols: `weights_start` at 7 and `_weights_start` at 9.
+    const SYMBOLS: u32 = 52 + NAMES.len() as u32;
+
+    /// A header, names, two symbols, and one entry per `(name, type, flags, size)`; the first section
+    /// also tells where the names lie.
     fn elf(sections: &[(u32, u32, u32, u32)]) -> Vec<u8> {
         let mut file = vec![0; 52];
         file[..6].copy_from_slice(b"\x7fELF\x01\x01");
-        file[32..36].copy_from_slice(&60u32.to_le_bytes());
         file[46..48].copy_from_slice(&40u16.to_le_bytes());
         file[48..50].copy_from_slice(&(sections.len() as u16).to_le_bytes());
-        file.extend(b"\0.stack\0");
+        file.extend(NAMES);
+        for word in [WEIGHTS + 1, 7, 0, 0, WEIGHTS, 9, 0, 0u32] {
+            file.extend(word.to_le_bytes());
+        }
+        let table = file.len() as u32;
+        file[32..36].copy_from_slice(&table.to_le_bytes());
         for (name, kind, flags, size) in sections {
-            let mut entry = [0; 40];
-            entry[..4].copy_from_slice(&name.to_le_bytes());
-            entry[4..8].copy_from_slice(&kind.to_le_bytes());
-            entry[8..12].copy_from_slice(&flags.to_le_bytes());
-            entry[16..20].copy_from_slice(&52u32.to_le_bytes());
-            entry[20..24].copy_from_slice(&size.to_le_bytes());
-            file.extend(entry);
+            let offset = if *kind == SECTION_SYMBOLS { SYMBOLS } else { 52 };
+            for word in [*name, *kind, *flags, 0, offset, *size, 0, 0, 0, 0] {
+                file.extend(word.to_le_bytes());
+            }
         }
         file
+    }
+
+    #[test]
+    fn a_name_is_found_only_as_a_whole() {
+        let file = elf(&[(UNNAMED, 1, 6, 1000), (UNNAMED, SECTION_SYMBOLS, 0, 32)]);
+        assert_eq!(address(&file, "_weights_start"), Ok(Some(9)));
+        assert_eq!(address(&file, "_weights"), Ok(None));
+        assert_eq!(address(&file, "_weights_end"), Ok(None));
+        for length in 6..file.len() - 12 {
+            assert!(address(&file[..length], "_weights_start").is_err(), "{length} bytes");
+        }
     }
 
     #[test]
@@ -100,7 +162,7 @@ mod tests {
     #[test]
     fn a_cut_or_foreign_file_is_refused() {
         let whole = elf(&[(UNNAMED, 1, 6, 1000)]);
-        for length in 6..whole.len() - 16 {
+        for length in 6..whole.len() - 12 {
             assert!(size(&whole[..length]).is_err(), "{length} bytes were accepted");
         }
         assert_eq!(size(b"MZ"), Err("not a 32-bit little-endian ELF file"));

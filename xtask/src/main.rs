@@ -70,7 +70,7 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "qemu",
-        arguments: "ELF [--board BOARD] [--timeout SECONDS]",
+        arguments: "ELF [--board BOARD] [--weights BLOB] [--timeout SECONDS]",
         summary: "runs a board's program in QEMU, decodes its log, passes its exit code on",
         run: qemu::run,
     },

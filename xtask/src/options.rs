@@ -1,5 +1,6 @@
 //! The command line: one command, its operands, and the options all commands share.
 
+use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::failure::Failure;
@@ -46,12 +47,14 @@ pub(crate) struct Options {
     pub(crate) board: Option<String>,
     /// `--sabotage`: build a program that has to fail, in this way.
     pub(crate) sabotage: Option<String>,
+    /// `--weights`: the blob in the board's flash; without it that flash is erased.
+    pub(crate) weights: Option<PathBuf>,
     /// `--timeout`: wall-clock time a board may take, 60 s unless said otherwise.
     pub(crate) timeout: Duration,
 }
 
 /// Every option; each takes a value.
-const VALUED: [&str; 4] = ["targets", "board", "sabotage", "timeout"];
+const VALUED: [&str; 5] = ["targets", "board", "sabotage", "weights", "timeout"];
 
 impl Options {
     /// Reads the words after `cargo xtask`.
@@ -61,8 +64,15 @@ impl Options {
             Err(_) => TargetSource::Auto,
         };
         let timeout = Duration::from_secs(60);
-        let (command, operands, board, sabotage) = (None, Vec::new(), None, None);
-        let mut options = Self { command, operands, targets, board, sabotage, timeout };
+        let mut options = Self {
+            command: None,
+            operands: Vec::new(),
+            targets,
+            board: None,
+            sabotage: None,
+            weights: None,
+            timeout,
+        };
         let mut words = arguments.into_iter();
         while let Some(word) = words.next() {
             let Some(option) = word.strip_prefix("--") else {
@@ -94,6 +104,7 @@ impl Options {
         match name {
             "targets" => self.targets = TargetSource::from_name(&value, "--targets")?,
             "board" => self.board = Some(value),
+            "weights" => self.weights = Some(value.into()),
             "sabotage" => match value.as_str() {
                 "panic" | "fault" | "hang" => self.sabotage = Some(value),
                 _ => {
@@ -140,7 +151,7 @@ mod tests {
         let message = |line| parse(line).expect_err(line).to_string();
         assert_eq!(
             message("test --target x"),
-            "no option `--target`; expected one of: --targets, --board, --sabotage, --timeout"
+            "no option `--target`; expected one of: --targets, --board, --sabotage, --weights, --timeout"
         );
         assert_eq!(
             message("test --targets brew"),

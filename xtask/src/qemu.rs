@@ -4,6 +4,7 @@
 mod decode;
 #[cfg(feature = "decode")]
 mod emulate;
+mod flash;
 
 use std::path::Path;
 
@@ -25,22 +26,40 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     if !elf.is_file() {
         return Err(Failure::usage(format!("no program at {}", elf.display())));
     }
+    let weights = options.weights.as_deref();
+    let flash = flash::device(flash::Region::of(elf)?, weights)?;
     tools::need_emulator(board)?;
-    emulate(board, elf, options)
+    emulate(board, elf, flash.as_deref(), options)
 }
 
 #[cfg(feature = "decode")]
-fn emulate(board: &Board, elf: &Path, options: &Options) -> Result<(), Failure> {
-    emulate::run(board, elf, options.timeout)
+fn emulate(
+    board: &Board,
+    elf: &Path,
+    flash: Option<&str>,
+    options: &Options,
+) -> Result<(), Failure> {
+    emulate::run(board, elf, flash, options.timeout)
 }
 
 /// Hands over to an xtask built with the log decoder; this one goes without, to be quick to build.
 #[cfg(not(feature = "decode"))]
-fn emulate(board: &Board, elf: &Path, options: &Options) -> Result<(), Failure> {
-    let status = decoder("run")
+fn emulate(
+    board: &Board,
+    elf: &Path,
+    _flash: Option<&str>,
+    options: &Options,
+) -> Result<(), Failure> {
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let mut command = decoder("run");
+    command
         .args(["--", "qemu", "--board", board.name, "--timeout"])
         .arg(options.timeout.as_secs().to_string())
-        .arg(std::path::absolute(elf).unwrap_or_else(|_| elf.to_owned()))
+        .arg(absolute(elf));
+    if let Some(weights) = &options.weights {
+        command.arg("--weights").arg(absolute(weights));
+    }
+    let status = command
         .status()
         .map_err(|error| Failure::failed(format!("cannot start cargo: {error}")))?;
     match status.code() {

@@ -36,6 +36,11 @@ impl Program {
         Ok(Self { board: board.to_owned(), elf })
     }
 
+    /// Whether the data is built in.
+    pub(crate) fn has(&self, data: &[u8]) -> bool {
+        self.elf.windows(data.len()).any(|window| window == data)
+    }
+
     /// The same program with other data in the place of `data`, which must be in it exactly once.
     pub(crate) fn with(&self, data: &[u8], other: &[u8]) -> Result<Self, Trouble> {
         assert_eq!(data.len(), other.len(), "the program's layout must stay");
@@ -56,28 +61,55 @@ impl Program {
         Ok(Self { board: self.board.clone(), elf })
     }
 
-    /// Runs it to its end.
+    /// Runs it to its end, its flash for weights erased.
     pub(crate) fn run(&self) -> Result<Outcome, Trouble> {
         self.run_for(60)
     }
 
+    /// Runs it to its end with these bytes in its flash for weights.
+    pub(crate) fn run_with_weights(&self, weights: &[u8]) -> Result<Outcome, Trouble> {
+        let weights = Temporary::new("blob", weights)?;
+        self.start(&["--weights", &weights.path()])
+    }
+
     /// Runs it for so many seconds at most.
     pub(crate) fn run_for(&self, seconds: u32) -> Result<Outcome, Trouble> {
+        self.start(&["--timeout", &seconds.to_string()])
+    }
+
+    fn start(&self, options: &[&str]) -> Result<Outcome, Trouble> {
+        let elf = Temporary::new("elf", &self.elf)?;
+        let path = elf.path();
+        let mut arguments = vec!["qemu", &path, "--board", &self.board];
+        arguments.extend(options);
+        let output = xtask(&arguments)?;
+        Ok(Outcome { code: output.status.code(), text: text(&output) })
+    }
+}
+
+/// A file that is gone when it is no longer needed.
+struct Temporary(PathBuf);
+
+impl Temporary {
+    fn new(ending: &str, bytes: &[u8]) -> Result<Self, Trouble> {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        let file = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!(
-            "{}-{}-{number}.elf",
-            self.board,
-            std::process::id()
-        ));
-        let failed = |error| Trouble::Failed(format!("{}: {error}", file.display()));
-        std::fs::write(&file, &self.elf).map_err(failed)?;
-        let path = file.display().to_string();
-        let output =
-            xtask(&["qemu", &path, "--board", &self.board, "--timeout", &seconds.to_string()]);
-        std::fs::remove_file(&file).map_err(failed)?;
-        let output = output?;
-        Ok(Outcome { code: output.status.code(), text: text(&output) })
+        let name = format!("{}-{number}.{ending}", std::process::id());
+        let file = Self(PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name));
+        std::fs::write(&file.0, bytes)
+            .map_err(|error| Trouble::Failed(format!("{}: {error}", file.path())))?;
+        Ok(file)
+    }
+
+    fn path(&self) -> String {
+        self.0.display().to_string()
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        // A file left behind in cargo's folder for such files harms nobody.
+        let _ = std::fs::remove_file(&self.0);
     }
 }
 
@@ -99,6 +131,14 @@ impl Outcome {
             return Ok(());
         }
         Err(Trouble::Failed(format!("expected `{text}`, found:\n{}", self.text)))
+    }
+
+    /// Fails if the run printed this.
+    pub(crate) fn expect_no_text(&self, text: &str) -> Result<(), Trouble> {
+        if self.text.contains(text) {
+            return Err(Trouble::Failed(format!("`{text}` not expected, found:\n{}", self.text)));
+        }
+        Ok(())
     }
 
     /// Fails unless the run printed a line about `subject` with this in it.

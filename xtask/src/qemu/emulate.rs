@@ -12,13 +12,18 @@ use crate::failure::Failure;
 use crate::process;
 
 /// Runs the program for at most `timeout` and ends as it ended.
-pub(super) fn run(board: &Board, elf: &Path, timeout: Duration) -> Result<(), Failure> {
+pub(super) fn run(
+    board: &Board,
+    elf: &Path,
+    flash: Option<&str>,
+    timeout: Duration,
+) -> Result<(), Failure> {
     let bytes = std::fs::read(elf)
         .map_err(|error| Failure::usage(format!("cannot read {}: {error}", elf.display())))?;
     let log = Log::of(&bytes).map_err(|error| {
         Failure::failed(format!("{}: its log cannot be decoded: {error:#}", elf.display()))
     })?;
-    let mut child = start(board, elf)?;
+    let mut child = start(board, elf, flash)?;
     let ended = follow(&mut child, &log, Instant::now() + timeout)?;
     match ended.and_then(|status| status.code()) {
         Some(0) => Ok(()),
@@ -39,7 +44,7 @@ pub(super) fn run(board: &Board, elf: &Path, timeout: Duration) -> Result<(), Fa
     }
 }
 
-fn start(board: &Board, elf: &Path) -> Result<Child, Failure> {
+fn start(board: &Board, elf: &Path, flash: Option<&str>) -> Result<Child, Failure> {
     Command::new(board.emulator.program)
         .args([
             "-machine",
@@ -51,6 +56,7 @@ fn start(board: &Board, elf: &Path) -> Result<Child, Failure> {
             "none",
         ])
         .args(board.emulator.options)
+        .args(flash.into_iter().flat_map(|loader| ["-device", loader]))
         .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
         .arg(elf)
         .stdin(Stdio::null())

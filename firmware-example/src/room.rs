@@ -1,5 +1,8 @@
-//! A room with boxes and a target, and a car with five beams in it.
+//! A room with boxes and a target, and what a car with five beams sees in it.
+//!
+//! It is made of `controller-core`'s arithmetic only, so every machine sees the same bits.
 
+use controller_core::controller::Command;
 use controller_core::geometry::{Body, Disc, Ray, Segment};
 use controller_core::motion::Pose;
 use controller_core::observation::{BEAMS, BeamMount, Echo};
@@ -20,6 +23,20 @@ const RECTANGLES: [[f32; 4]; 4] =
 
 const TARGET: Disc<f32> = Disc { centre: (4.0, 7.0), radius: 0.4 };
 
+/// Steps after which the car is put elsewhere, so that a circling one still sees the room.
+const STEPS_PER_START: u32 = 40;
+
+/// Where the car is put in turn: metres, metres, radians.
+const STARTS: [(f32, f32, f32); 5] =
+    [(1.0, 1.0, 0.8), (8.5, 8.5, -2.4), (1.0, 8.0, -0.3), (8.5, 2.0, 2.0), (4.2, 4.8, 1.5)];
+
+/// Where the car is put before this step, if it is put anywhere.
+pub fn start(step: u32) -> Option<Pose<f32>> {
+    let turn = step.is_multiple_of(STEPS_PER_START).then_some(step / STEPS_PER_START)?;
+    let (x, y, heading) = *STARTS.get(turn as usize % STARTS.len())?;
+    Some(Pose::new(x, y, heading))
+}
+
 /// The fan of beams: −30 to +30°, rightmost first.
 pub fn mounts() -> [BeamMount; BEAMS] {
     [-30.0f32, -15.0, 0.0, 15.0, 30.0].map(|degrees| BeamMount {
@@ -29,15 +46,15 @@ pub fn mounts() -> [BeamMount; BEAMS] {
     })
 }
 
-/// What the beams report at this pose.
-pub fn look(pose: &Pose<f32>) -> [Option<Echo>; BEAMS] {
-    mounts().map(|mount| {
+/// What beams of this range in metres report at this pose.
+pub fn look(pose: &Pose<f32>, mounts: &[BeamMount; BEAMS], range: f32) -> [Option<Echo>; BEAMS] {
+    mounts.map(|mount| {
         let (sin, cos) = sin_cos(pose.heading + mount.angle);
         let ray = Ray { origin: pose.to_world(mount.x, mount.y), direction: (cos, sin) };
         let wall = walls().map(|wall| ray.to_segment(&wall)).fold(f32::INFINITY, f32::min);
         let target = ray.to_disc(&TARGET);
         Some(match (wall, target) {
-            _ if wall.min(target) > RANGE => Echo::Nothing,
+            _ if wall.min(target) > range => Echo::Nothing,
             _ if target < wall => Echo::Target(target),
             _ => Echo::Wall(wall),
         })
@@ -45,8 +62,8 @@ pub fn look(pose: &Pose<f32>) -> [Option<Echo>; BEAMS] {
 }
 
 /// Where the car is after one step; a blocked car turns but does not move.
-pub fn drive(pose: &Pose<f32>, steer: f32, step: f32) -> Pose<f32> {
-    let next = pose.driven(steer, step, WHEELBASE);
+pub fn drive(pose: &Pose<f32>, command: Command, wheelbase: f32) -> Pose<f32> {
+    let next = pose.driven(command.steer.radians(), command.step.metres(), wheelbase);
     if walls().any(|wall| BODY.touches_segment(&next, &wall)) { next.held_at(pose) } else { next }
 }
 
@@ -60,6 +77,10 @@ fn walls() -> impl Iterator<Item = Segment<f32>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn look(pose: &Pose<f32>) -> [Option<Echo>; BEAMS] {
+        super::look(pose, &mounts(), RANGE)
+    }
 
     #[test]
     fn the_fan_sees_the_wall_ahead_the_target_and_free_space() {
