@@ -1,12 +1,11 @@
 //! The winner, as the bytes that go onto the car.
 
+use crate::fingerprint;
 use crate::problem::Problem;
-use crate::scenario::{Scenario, to_toml};
 use crate::seed::{Purpose, RunSeed};
 use crate::training::Best;
 use controller_core::blob::{self, EncodeError, Header, Provenance};
 use controller_core::observation::INPUTS;
-use sha2::{Digest, Sha256};
 
 /// Self-test triples in a champion's blob.
 const SELF_TESTS: u8 = 4;
@@ -29,7 +28,7 @@ pub fn to_blob(problem: &Problem, seed: RunSeed, best: &Best) -> Result<Vec<u8>,
 fn header(problem: &Problem, seed: RunSeed, best: &Best) -> Header {
     let scenario = &problem.scenario;
     let version = |part: &str| part.parse().expect("cargo's version parts are numbers");
-    let hash = scenario_hash(scenario);
+    let digest = fingerprint::scenario(scenario);
     Header {
         topology: problem.topology(),
         activation: scenario.network.activation,
@@ -41,7 +40,7 @@ fn header(problem: &Problem, seed: RunSeed, best: &Best) -> Header {
         provenance: Provenance {
             seed: seed.0,
             generation: best.generation,
-            scenario_hash: hash,
+            scenario_hash: std::array::from_fn(|i| digest[i]),
             tool: [
                 version(env!("CARGO_PKG_VERSION_MAJOR")),
                 version(env!("CARGO_PKG_VERSION_MINOR")),
@@ -50,19 +49,6 @@ fn header(problem: &Problem, seed: RunSeed, best: &Best) -> Header {
             scenario: Provenance::stored_name(&scenario.name),
         },
     }
-}
-
-/// First bytes of the SHA-256 of the scenario as a scenario file. A map counts by its file's
-/// name, so that the hash does not depend on where a checkout lies.
-fn scenario_hash(scenario: &Scenario) -> [u8; 8] {
-    let mut portable = scenario.clone();
-    if let Some(map) = &mut portable.world.map
-        && let Some(name) = map.yaml.file_name()
-    {
-        map.yaml = name.into();
-    }
-    let digest = Sha256::digest(to_toml(&portable));
-    std::array::from_fn(|i| digest[i])
 }
 
 /// Random inputs and states with the outputs that this machine computes for them.

@@ -3,14 +3,14 @@
 use crate::commands::{evaluate, export, inspect, replay, scenario, train};
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::signals::StopFlag;
+use crate::signals::{self, StopFlag};
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Evolves a neural steering controller for a small car in a simulator, and gets it onto the car
 #[derive(Debug, Parser)]
-#[command(name = "evosteer", version, arg_required_else_help = true)]
+#[command(name = "evosteer", version, arg_required_else_help = true, max_term_width = 100)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -39,9 +39,10 @@ impl Command {
     }
 
     fn run(&self, output: &mut Output) -> Result<(), Failure> {
-        let stop = StopFlag::install()?;
+        signals::survive_a_full_file()?;
         match self {
-            Self::Train(args) => train::run(args, &stop, output),
+            // Only training has something to save when it is asked to stop.
+            Self::Train(args) => train::run(args, &StopFlag::install()?, output),
             Self::Evaluate(args) => evaluate::run(args, output),
             Self::Replay(args) => replay::run(args, output),
             Self::Scenario(args) => scenario::run(args, output),
@@ -62,11 +63,18 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     if let Err(failure) = &done {
         output.status(format_args!("error: {failure}"));
     }
-    let said = output.finish();
+    let said = finish(output);
     match done.and(said) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => ExitCode::from(failure.exit_code()),
     }
+}
+
+/// Says on standard error that standard output broke, if it did.
+fn finish(output: Output) -> Result<(), Failure> {
+    output.finish().inspect_err(|failure| {
+        Output::new(false).status(format_args!("error: {failure}"));
+    })
 }
 
 /// Prints help and version to standard output, refusals to standard error with exit code 2.
@@ -78,7 +86,7 @@ fn refuse(error: &clap::Error) -> ExitCode {
         return ExitCode::from(2);
     }
     output.line(text.to_string().trim_end());
-    match output.finish() {
+    match finish(output) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => ExitCode::from(failure.exit_code()),
     }

@@ -1,9 +1,11 @@
 //! The verbs of `evosteer`, one module each: its options and what it does.
 
+mod advice;
 mod blob_summary;
 pub mod evaluate;
 pub mod export;
 pub mod inspect;
+mod number;
 pub mod replay;
 pub mod scenario;
 mod setup;

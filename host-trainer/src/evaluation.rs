@@ -3,7 +3,8 @@
 use crate::episode::Outcome;
 use crate::problem::{Problem, evaluation_drive};
 use crate::scenario::Pair;
-use crate::seed::RunSeed;
+use crate::seed::{RunSeed, Stream};
+use crate::signals::StopFlag;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -48,6 +49,30 @@ impl std::fmt::Display for Share {
     }
 }
 
+/// Drives every pair with the controller over `genome`, in parallel; drive `i` gets the random
+/// numbers of `place(i)`. None if `stop` was raised meanwhile.
+///
+/// # Panics
+///
+/// If the genome is not of the problem's topology.
+pub fn outcomes(
+    problem: &Problem,
+    genome: &[f32],
+    pairs: &[Pair],
+    place: impl Fn(u32) -> Stream + Sync,
+    stop: &StopFlag,
+) -> Option<Vec<Outcome>> {
+    let drive = |(index, pair): (usize, &Pair)| {
+        if stop.requested().is_some() {
+            return None;
+        }
+        let mut brain = problem.brain(genome).expect("the problem's topology");
+        let place = |_| place(index as u32);
+        Some(problem.drive_all(brain.as_mut(), std::slice::from_ref(pair), place)[0])
+    };
+    pairs.par_iter().enumerate().map(drive).collect()
+}
+
 /// How a controller did over many drives.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Evaluation {
@@ -72,22 +97,25 @@ pub struct Evaluation {
 }
 
 impl Evaluation {
-    /// Drives every pair with the controller over `genome`, in parallel.
+    /// Drives every pair with the controller over `genome`, in parallel. None if `stop` was
+    /// raised meanwhile.
     ///
     /// # Panics
     ///
     /// If the genome is not of the problem's topology, or there is no pair.
-    pub fn of(problem: &Problem, genome: &[f32], pairs: &[Pair], seed: RunSeed) -> Self {
-        let drive = |(index, pair): (usize, &Pair)| {
-            let mut brain = problem.brain(genome).expect("the problem's topology");
-            let place = |_| evaluation_drive(seed, index as u32);
-            problem.drive_all(brain.as_mut(), std::slice::from_ref(pair), place)[0]
-        };
-        let outcomes: Vec<Outcome> = pairs.par_iter().enumerate().map(drive).collect();
-        Self::summary(&outcomes, seed)
+    pub fn of(
+        problem: &Problem,
+        genome: &[f32],
+        pairs: &[Pair],
+        seed: RunSeed,
+        stop: &StopFlag,
+    ) -> Option<Self> {
+        let place = |index| evaluation_drive(seed, index);
+        outcomes(problem, genome, pairs, place, stop).map(|outcomes| Self::summary(&outcomes, seed))
     }
 
-    fn summary(outcomes: &[Outcome], seed: RunSeed) -> Self {
+    /// Counts how drives ended; there must be at least one.
+    pub fn summary(outcomes: &[Outcome], seed: RunSeed) -> Self {
         let of = outcomes.len() as u32;
         let count = |counts: fn(&Outcome) -> bool| Share {
             count: outcomes.iter().filter(|outcome| counts(outcome)).count() as u32,

@@ -35,8 +35,13 @@ pub fn body(problem: &Problem) -> BodyShape {
     }
 }
 
-/// Drives every pair with the controller over `genome` and keeps what there is to see. Drive
+/// Steps that a page shows, all drives together: beyond them a browser no longer keeps up.
+const MOST_MOMENTS: usize = 200_000;
+
+/// Drives the pairs with the controller over `genome` and keeps what there is to see. Drive
 /// `i` gets the random numbers of `place(i)`.
+///
+/// Ends early, after at least one drive, where there would be more steps than a page can show.
 pub fn drives(
     problem: &Problem,
     genome: &[f32],
@@ -48,7 +53,17 @@ pub fn drives(
         let (outcome, trace) = problem.drive_traced(brain.as_mut(), pair, place(index));
         drive(pair, &outcome, &trace)
     };
-    (0..).zip(pairs).map(&mut film).collect()
+    let mut drives = Vec::new();
+    let mut moments = 0;
+    for numbered in (0..).zip(pairs) {
+        let drive = film(numbered);
+        moments += drive.moments.len();
+        if moments > MOST_MOMENTS && !drives.is_empty() {
+            break;
+        }
+        drives.push(drive);
+    }
+    drives
 }
 
 fn drive(pair: &Pair, outcome: &Outcome, trace: &Trace) -> Drive {

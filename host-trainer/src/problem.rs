@@ -134,7 +134,7 @@ pub fn adopt_car(scenario: &mut Scenario, header: &Header) -> Vec<String> {
     let mut changes = Vec::new();
     let mut note = |what: &str, was: String, is: String| {
         if was != is {
-            changes.push(format!("{what} {is} (the scenario says {was})"));
+            changes.push(format!("{what} {is}; the scenario's {was} does not count"));
         }
     };
     let Scaling { encoding, range, steer_limit, step_lower, step_upper } = header.scaling;

@@ -41,6 +41,7 @@ use controller_core::activation::ActivationKind;
 use controller_core::network::RecurrenceKind;
 use controller_core::observation::{BEAMS, BeamMount, Encoding};
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
 
 pub use crate::evolve::ga::{GaSpec, Mutation, Selection};
 pub use catalogue::{all_shipped, find};
@@ -328,6 +329,13 @@ pub struct Pair {
     pub start: [f32; 3],
     /// Centre of the target disc.
     pub goal: [f32; 2],
+}
+
+impl TrainingSpec {
+    /// Individuals that a search may have.
+    pub const POPULATION: RangeInclusive<u32> = 2..=1_000_000;
+    /// Generations that a run may have.
+    pub const GENERATIONS: RangeInclusive<u32> = 1..=1_000_000;
 }
 
 /// The search.

@@ -90,13 +90,25 @@ impl fmt::Display for RunSeed {
 }
 
 impl FromStr for RunSeed {
-    type Err = std::num::ParseIntError;
+    type Err = NotASeed;
 
     /// Reads a decimal number from 0 to 2⁶⁴ − 1.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        text.parse().map(Self)
+        text.parse().map(Self).map_err(|_| NotASeed)
     }
 }
+
+/// A text that is no seed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotASeed;
+
+impl fmt::Display for NotASeed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "expected a whole number from 0 to {}", u64::MAX)
+    }
+}
+
+impl std::error::Error for NotASeed {}
 
 #[cfg(test)]
 mod tests {

@@ -9,6 +9,24 @@ use signal_hook::flag;
 
 use crate::failure::{Failure, FailureKind};
 
+/// Makes a write past the file-size limit, which would kill the process by SIGXFSZ, an ordinary
+/// error. A closed pipe is one already: Rust's start-up ignores SIGPIPE.
+///
+/// # Errors
+///
+/// Input/output when the system refuses the handler.
+pub fn survive_a_full_file() -> Result<(), Failure> {
+    // Handled rather than ignored: signal-hook offers no SIG_IGN, and any handler will do.
+    #[cfg(unix)]
+    flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)))
+        .map_err(|cause| refused(&cause))?;
+    Ok(())
+}
+
+fn refused(cause: &io::Error) -> Failure {
+    Failure::new(FailureKind::InputOutput, format!("cannot handle signals: {cause}"))
+}
+
 /// Whether someone asked the process to stop.
 ///
 /// The first SIGINT (Ctrl-C) or SIGTERM raises the flag; the second one ends the process at
@@ -20,18 +38,13 @@ pub struct StopFlag {
 }
 
 impl StopFlag {
-    /// Takes over this process's signals. Call it once, before anything is written.
-    ///
-    /// A write past the file-size limit, which would kill the process by SIGXFSZ, becomes
-    /// an ordinary error. A closed pipe is one already: Rust's start-up ignores SIGPIPE.
+    /// Takes over this process's SIGINT and SIGTERM. Call it once.
     ///
     /// # Errors
     ///
     /// Input/output when the system refuses the handlers.
     pub fn install() -> Result<Self, Failure> {
-        Self::try_install().map_err(|cause| {
-            Failure::new(FailureKind::InputOutput, format!("cannot handle signals: {cause}"))
-        })
+        Self::try_install().map_err(|cause| refused(&cause))
     }
 
     fn try_install() -> io::Result<Self> {
@@ -43,9 +56,6 @@ impl StopFlag {
             flag::register_usize(signal, Arc::clone(&stop.signal), signal as usize)?;
             flag::register(signal, Arc::clone(&armed))?;
         }
-        // Handled rather than ignored: signal-hook offers no SIG_IGN, and any handler will do.
-        #[cfg(unix)]
-        flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)))?;
         Ok(stop)
     }
 

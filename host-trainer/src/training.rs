@@ -5,14 +5,18 @@ use crate::episode::Outcome;
 use crate::evolve::ga::Ga;
 use crate::evolve::{Cost, Optimizer, Population, RestoreError, SearchSpace, State, best_index};
 use crate::failure::Failure;
+use crate::fingerprint;
 use crate::fitness;
 use crate::pairs::PairSampler;
-use crate::problem::{Problem, training_drive};
+use crate::problem::{Problem, topology_of, training_drive};
 use crate::run_folder::MetricsRow;
-use crate::scenario::Pair;
+use crate::scenario::{Complaint, Pair, PairSource, Scenario, TrainingSpec};
 use crate::seed::RunSeed;
+use crate::signals::StopFlag;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::fmt;
 
 /// The best individual so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,14 +32,50 @@ pub struct Best {
 /// Everything that training needs to go on, bit for bit.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Snapshot {
+    run: RunId,
     search: State,
     history: Vec<MetricsRow>,
     best: Option<Best>,
 }
 
+/// What a run is: SHA-256 of its seed and its scenario, whose number of generations does not
+/// count.
+type RunId = [u8; 32];
+
+/// Why a saved state is not gone on from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ResumeError {
+    /// It was saved under another scenario or another seed.
+    OtherRun,
+    /// The search refuses its part.
+    Search(RestoreError),
+    /// It does not hold one row per judged generation.
+    History {
+        /// Rows.
+        found: usize,
+        /// Judged generations.
+        expected: u32,
+    },
+}
+
+impl fmt::Display for ResumeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OtherRun => f.write_str("it was saved under another scenario or seed"),
+            Self::Search(error) => error.fmt(f),
+            Self::History { found, expected } => {
+                write!(f, "the history has {found} generations, expected {expected}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for ResumeError {}
+
 /// A training run in memory; files are the caller's business.
 pub struct Training<'a> {
     problem: &'a Problem,
+    run: RunId,
     seed: RunSeed,
     sampler: PairSampler<'a>,
     search: Box<dyn Optimizer>,
@@ -60,13 +100,14 @@ impl<'a> Training<'a> {
             .map_err(|error| Failure::bad_input(format!("training: {error}")))?;
         let sampler = PairSampler::new(&problem.world, &problem.scenario);
         let search: Box<dyn Optimizer> = Box::new(search);
-        Ok(Self { problem, seed, sampler, search, history: Vec::new(), best: None })
+        let run = run_id(&problem.scenario, seed);
+        Ok(Self { problem, run, seed, sampler, search, history: Vec::new(), best: None })
     }
 
     /// The state to go on from.
     pub fn snapshot(&self) -> Snapshot {
-        let Self { search, history, best, .. } = self;
-        Snapshot { search: search.save(), history: history.clone(), best: best.clone() }
+        let Self { run, search, history, best, .. } = self;
+        Snapshot { run: *run, search: search.save(), history: history.clone(), best: best.clone() }
     }
 
     /// Goes on from a saved state of the same run.
@@ -74,8 +115,15 @@ impl<'a> Training<'a> {
     /// # Errors
     ///
     /// A state of another run.
-    pub fn restore(&mut self, snapshot: Snapshot) -> Result<(), RestoreError> {
-        self.search.restore(snapshot.search)?;
+    pub fn restore(&mut self, snapshot: Snapshot) -> Result<(), ResumeError> {
+        if snapshot.run != self.run {
+            return Err(ResumeError::OtherRun);
+        }
+        self.search.restore(snapshot.search).map_err(ResumeError::Search)?;
+        let (found, expected) = (snapshot.history.len(), self.search.generation());
+        if found as u64 != u64::from(expected) {
+            return Err(ResumeError::History { found, expected });
+        }
         self.history = snapshot.history;
         self.best = snapshot.best;
         Ok(())
@@ -107,15 +155,20 @@ impl<'a> Training<'a> {
         pairs.map_err(|error| Failure::bad_input(error.to_string()))
     }
 
-    /// Judges the current generation on the current rayon pool and breeds the next.
+    /// Judges the current generation on the current rayon pool and breeds the next. None, and
+    /// nothing has changed, if `stop` was raised meanwhile.
     ///
     /// # Errors
     ///
     /// A world in which no pair is found.
-    pub fn step(&mut self) -> Result<&MetricsRow, Failure> {
+    pub fn step(&mut self, stop: &StopFlag) -> Result<Option<&MetricsRow>, Failure> {
         let generation = self.generation();
         let pairs = self.pairs(generation)?;
-        let drives = judge(self.problem, self.seed, self.search.ask(), &pairs, generation);
+        let population = self.search.ask();
+        let Some(drives) = judge(self.problem, self.seed, population, &pairs, generation, stop)
+        else {
+            return Ok(None);
+        };
         let fitness = &self.problem.scenario.fitness;
         let costs: Vec<Cost> =
             drives.iter().map(|drives| fitness::total(fitness, drives)).collect();
@@ -123,7 +176,7 @@ impl<'a> Training<'a> {
         let row = row(generation, &costs, &drives, best);
         self.keep(generation, costs[best], best);
         self.search.tell(&costs);
-        Ok(self.history.push_mut(row))
+        Ok(Some(self.history.push_mut(row)))
     }
 
     fn keep(&mut self, generation: u32, cost: Cost, index: usize) {
@@ -135,19 +188,64 @@ impl<'a> Training<'a> {
     }
 }
 
-/// Every individual's drives, in order. An indexed parallel iterator keeps that order, so
-/// threads cannot change the result.
+fn run_id(scenario: &Scenario, seed: RunSeed) -> RunId {
+    let mut scenario = scenario.clone();
+    scenario.training.generations = *TrainingSpec::GENERATIONS.start();
+    let scenario = fingerprint::scenario(&scenario);
+    Sha256::new().chain_update(seed.0.to_le_bytes()).chain_update(scenario).finalize().into()
+}
+
+/// Most weights of a population: 256 MiB, of which training holds a few copies.
+const MOST_WEIGHTS: u64 = 1 << 26;
+
+/// Most drives in one generation; their outcomes are held until it is judged.
+const MOST_DRIVES: u64 = 10_000_000;
+
+/// A search that would not fit into memory.
+pub fn too_large(scenario: &Scenario) -> Option<Complaint> {
+    let population = u64::from(scenario.training.population);
+    let weights = topology_of(scenario).weights() as u64;
+    if population * weights > MOST_WEIGHTS {
+        let most = MOST_WEIGHTS / weights;
+        let detail = format!(
+            "found {population} individuals with {weights} weights each, expected at most {most}"
+        );
+        let title = "the population is too large for this network";
+        return Some(Complaint::new("training.population", title, detail).or_at("network.hidden"));
+    }
+    let pairs = match &scenario.pairs.source {
+        PairSource::Drawn { count, .. } => u64::from(*count),
+        PairSource::Listed(pairs) => pairs.len() as u64,
+    };
+    if population * pairs > MOST_DRIVES {
+        let detail = format!(
+            "found {population} individuals with {pairs} pairs each, expected at most \
+             {MOST_DRIVES} drives"
+        );
+        let complaint = Complaint::new("pairs.count", "a generation has too many drives", detail);
+        return Some(complaint.or_at("training.population").or_at("pairs.list"));
+    }
+    None
+}
+
+/// Every individual's drives, in order; none once `stop` is raised. An indexed parallel
+/// iterator keeps that order, so threads cannot change the result.
 fn judge(
     problem: &Problem,
     seed: RunSeed,
     population: &Population,
     pairs: &[Pair],
     generation: u32,
-) -> Vec<Vec<Outcome>> {
+    stop: &StopFlag,
+) -> Option<Vec<Vec<Outcome>>> {
     let judge = |index: usize| {
+        if stop.requested().is_some() {
+            return None;
+        }
         let brain = problem.brain(population.genome(index));
         let mut brain = brain.expect("genomes have the network's length");
-        problem.drive_all(brain.as_mut(), pairs, |drive| training_drive(seed, generation, drive))
+        let place = |drive| training_drive(seed, generation, drive);
+        Some(problem.drive_all(brain.as_mut(), pairs, place))
     };
     (0..population.size()).into_par_iter().map(judge).collect()
 }

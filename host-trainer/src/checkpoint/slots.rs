@@ -67,7 +67,8 @@ impl Checkpoints {
             }
             None if damaged.is_empty() => Ok((Self { next: 0 }, None)),
             None => Err(Failure::bad_input(format!(
-                "no checkpoint in {} can be resumed\n  {}",
+                "no checkpoint in {} can be resumed\n  {}\n  without them the run begins anew \
+                 and ends the same",
                 folder.path().display(),
                 damaged.join("\n  ")
             ))),

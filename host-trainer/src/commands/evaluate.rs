@@ -1,11 +1,14 @@
 //! `evosteer evaluate`: how good is a champion where it has never been?
 
+use super::advice::counted;
+use super::number::whole;
 use super::setup::{ScenarioOptions, WhichPairs, problem_for};
 use crate::blob_file::BlobFile;
 use crate::evaluation::Evaluation;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::seed::RunSeed;
+use crate::signals::StopFlag;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -15,15 +18,21 @@ pub struct EvaluateArgs {
     /// A weight blob, or a run folder for its champion.blob
     champion: PathBuf,
 
-    /// A scenario: the name of a shipped one, or a file
+    /// A scenario: the name of a shipped one, a file, or a run folder for its scenario
     scenario: String,
 
     /// How many pairs to draw
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1000,
+        value_parser = whole(1..=10_000_000_u32),
+        allow_negative_numbers = true
+    )]
     pairs: u32,
 
     /// Seed of the pairs; training never uses the same ones, whatever its seed was
-    #[arg(long, default_value_t = RunSeed(1))]
+    #[arg(long, default_value_t = RunSeed(1), allow_negative_numbers = true)]
     seed: RunSeed,
 
     #[command(flatten)]
@@ -55,13 +64,17 @@ pub fn run(args: &EvaluateArgs, output: &mut Output) -> Result<(), Failure> {
     let champion = BlobFile::read(&args.champion)?;
     let problem = problem_for(&champion, &args.scenario, &args.options, output)?;
     let pairs = args.which.pairs(&problem, args.pairs, args.seed)?;
-    let evaluation = Evaluation::of(&problem, champion.blob().weights(), &pairs, args.seed);
-    let what = if args.which.listed { "listed pairs" } else { "unseen pairs" };
+    // Nothing to save: a signal ends the process.
+    let never = StopFlag::default();
+    let weights = champion.blob();
+    let evaluation = Evaluation::of(&problem, weights.weights(), &pairs, args.seed, &never)
+        .expect("nobody raises this flag");
+    let what = if args.which.listed { "listed pair" } else { "unseen pair" };
     output.line(format_args!(
-        "{} on {}, {} {what}, seed {}",
+        "{} on {}, {}, seed {}",
         champion.path().display(),
         problem.scenario.name,
-        evaluation.pairs,
+        counted(evaluation.pairs, what),
         args.seed
     ));
     output.line(format_args!("  reached          {}", evaluation.reached_share()));

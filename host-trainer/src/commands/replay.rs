@@ -1,5 +1,7 @@
 //! `evosteer replay`: watch a champion drive.
 
+use super::advice::counted;
+use super::number::whole;
 use super::setup::{ScenarioOptions, WhichPairs, problem_for};
 use crate::blob_file::BlobFile;
 use crate::failure::Failure;
@@ -17,7 +19,7 @@ pub struct ReplayArgs {
     /// A weight blob, or a run folder for its champion.blob
     champion: PathBuf,
 
-    /// A scenario: the name of a shipped one, or a file
+    /// A scenario: the name of a shipped one, a file, or a run folder for its scenario
     scenario: String,
 
     /// Where to write the page
@@ -29,11 +31,17 @@ pub struct ReplayArgs {
     force: bool,
 
     /// How many drives to show
-    #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=100))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 5,
+        value_parser = whole(1..=100_u32),
+        allow_negative_numbers = true
+    )]
     pairs: u32,
 
     /// Seed of the pairs; the same as of `evaluate`
-    #[arg(long, default_value_t = RunSeed(1))]
+    #[arg(long, default_value_t = RunSeed(1), allow_negative_numbers = true)]
     seed: RunSeed,
 
     #[command(flatten)]
@@ -67,6 +75,7 @@ struct Driven {
 ///
 /// A blob or scenario that is refused, or a page that cannot be written.
 pub fn run(args: &ReplayArgs, output: &mut Output) -> Result<(), Failure> {
+    check_page(args)?;
     let champion = BlobFile::read(&args.champion)?;
     let problem = problem_for(&champion, &args.scenario, &args.options, output)?;
     let pairs = args.which.pairs(&problem, args.pairs, args.seed)?;
@@ -85,8 +94,15 @@ pub fn run(args: &ReplayArgs, output: &mut Output) -> Result<(), Failure> {
             .collect(),
     };
     for (number, drive) in (1..).zip(&drives) {
-        let steps = drive.outcome.steps;
-        output.line(format_args!("drive {number}: {} after {steps} steps", drive.verdict()));
+        let steps = counted(drive.outcome.steps, "step");
+        output.line(format_args!("drive {number}: {} after {steps}", drive.verdict()));
+    }
+    if drives.len() < pairs.len() {
+        output.warning(format_args!(
+            "a page has room for {} of these {} drives",
+            drives.len(),
+            pairs.len()
+        ));
     }
     let header = champion.blob();
     let provenance = header.header().provenance;
@@ -104,9 +120,26 @@ pub fn run(args: &ReplayArgs, output: &mut Output) -> Result<(), Failure> {
         ],
     );
     let page = page::render_replay(&data);
-    let write = if args.force { files::write } else { files::write_new };
-    write(&args.out, page.as_bytes())?;
+    if args.force {
+        files::write(&args.out, page.as_bytes())?;
+    } else {
+        files::write_new(&args.out, page.as_bytes())?;
+    }
     output.line(format_args!("wrote {} (open it in a browser)", args.out.display()));
     output.json(&report);
+    Ok(())
+}
+
+/// Says before the work what writing would say after it.
+fn check_page(args: &ReplayArgs) -> Result<(), Failure> {
+    let page = args.out.display();
+    if args.out.is_dir() {
+        return Err(Failure::bad_input(format!("--out {page}: a folder; a file's name expected")));
+    }
+    if !args.force && args.out.symlink_metadata().is_ok() {
+        return Err(Failure::bad_input(format!(
+            "--out {page}: exists already and is not replaced without --force"
+        )));
+    }
     Ok(())
 }

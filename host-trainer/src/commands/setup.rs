@@ -1,12 +1,16 @@
 //! From what was typed to a problem that is known to make sense.
 
+use super::advice::in_shell;
 use crate::blob_file::BlobFile;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::pairs::PairSampler;
 use crate::problem::{Problem, adopt_car};
-use crate::scenario::{self, Complaint, Pair, PairSource, Preset, Setting};
+use crate::run_folder::{Manifest, RunFolder};
+use crate::scenario::{self, Complaint, Pair, PairSource, Preset, Scenario, Setting, Source};
 use crate::seed::RunSeed;
+use crate::training::too_large;
+use std::path::Path;
 
 /// Options that every command with a scenario has.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -76,7 +80,7 @@ pub(super) fn problem(
     preset: Option<Preset>,
     settings: &[Setting],
 ) -> Result<Problem, Failure> {
-    problem_with(name, preset, settings, |_| ())
+    problem_with(name, preset, settings, |_| Ok(()))
 }
 
 /// The same with the car that a champion was trained with.
@@ -90,31 +94,71 @@ pub(super) fn problem_for(
     options: &ScenarioOptions,
     output: &mut Output,
 ) -> Result<Problem, Failure> {
-    let mut changes = Vec::new();
-    let problem = problem_with(name, options.preset, &options.settings(), |scenario| {
-        changes = adopt_car(scenario, champion.blob().header());
-    })?;
-    for change in changes {
-        output.status(format_args!("note: the champion's own {change}"));
+    problem_with(name, options.preset, &options.settings(), |scenario| {
+        for change in adopt_car(scenario, champion.blob().header()) {
+            output.status(format_args!("note: driving with the champion's {change}"));
+        }
+        check_car(scenario, champion)
+    })
+}
+
+/// Refuses a car that no scenario could describe: a blob's numbers are only known to be
+/// numbers, and its step may be too long for the scenario's body.
+fn check_car(scenario: &Scenario, champion: &BlobFile) -> Result<(), Failure> {
+    let car = Scenario {
+        vehicle: scenario.vehicle.clone(),
+        sensors: scenario.sensors.clone(),
+        episode: scenario.episode,
+        ..Preset::default().scenario()
+    };
+    let label = format!("the car of {}", champion.path().display());
+    let source = Source::new(label, scenario::to_toml(&car), Path::new(""));
+    scenario::load(&source, None, &[]).map(|_| ())
+}
+
+/// A scenario's text by what a person types: a name, a file, or a run folder.
+fn source(name: &str) -> Result<Source, Failure> {
+    let path = Path::new(name);
+    let is_name = scenario::all_shipped().iter().any(|entry| entry.name == name);
+    if is_name || !path.join(RunFolder::MANIFEST).is_file() {
+        return scenario::find(name);
     }
-    Ok(problem)
+    let manifest = Manifest::<Scenario>::read_in(path)?;
+    let label = format!("the scenario of {}", path.display());
+    Ok(Source::new(label, scenario::to_toml(&manifest.scenario), Path::new("")))
+}
+
+/// What to type for this scenario after the run in `folder` has finished: its name if that is
+/// enough, else the folder.
+pub(super) fn shortest_name(scenario: &Scenario, folder: &Path) -> String {
+    let named = || {
+        scenario::all_shipped().iter().find(|entry| entry.name == scenario.name)?;
+        scenario::load(&scenario::find(&scenario.name).ok()?, None, &[]).ok()
+    };
+    // How a champion was found and what its drives cost does not matter to who drives there.
+    let (training, network, fitness) = (scenario.training, scenario.network, scenario.fitness);
+    match named() {
+        Some(named) if *scenario == Scenario { training, network, fitness, ..named.clone() } => {
+            scenario.name.clone()
+        }
+        _ => in_shell(folder),
+    }
 }
 
 fn problem_with(
     name: &str,
     preset: Option<Preset>,
     settings: &[Setting],
-    adapt: impl FnOnce(&mut scenario::Scenario),
+    adapt: impl FnOnce(&mut Scenario) -> Result<(), Failure>,
 ) -> Result<Problem, Failure> {
-    let source = scenario::find(name)?;
+    let source = source(name)?;
     let mut scenario = scenario::load(&source, preset, settings)?;
-    adapt(&mut scenario);
+    adapt(&mut scenario)?;
     let problem = Problem::new(scenario)?;
-    let complaints: Vec<Complaint> = problem
-        .world
-        .impossibilities(&problem.scenario)
-        .into_iter()
+    let impossible = problem.world.impossibilities(&problem.scenario).into_iter();
+    let complaints: Vec<Complaint> = impossible
         .map(|found| Complaint::new(found.key, "this task is impossible", found.problem))
+        .chain(too_large(&problem.scenario))
         .collect();
     if complaints.is_empty() {
         Ok(problem)

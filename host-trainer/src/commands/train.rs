@@ -2,6 +2,10 @@
 
 mod finish;
 
+use finish::Finished;
+
+use super::advice::{counted, in_shell, this_program};
+use super::number::whole;
 use super::setup::{ScenarioOptions, problem};
 use crate::checkpoint::Checkpoints;
 use crate::failure::{Failure, FailureKind};
@@ -9,7 +13,7 @@ use crate::output::{Output, Progress};
 use crate::problem::Problem;
 use crate::run_folder::manifest::Input;
 use crate::run_folder::{Manifest, Metrics, RunFolder};
-use crate::scenario::{Scenario, Setting};
+use crate::scenario::{Scenario, Setting, TrainingSpec};
 use crate::seed::RunSeed;
 use crate::signals::StopFlag;
 use crate::training::{Snapshot, Training};
@@ -23,11 +27,11 @@ const CHECKPOINT_EVERY: Duration = Duration::from_secs(2);
 /// Evolves a controller
 ///
 /// Writes a run folder with the champion, metrics, plots, checkpoints and a report that opens
-/// offline. Ctrl-C stops after the current generation, with a checkpoint to resume from. One
-/// seed gives one champion, on any number of threads and across interruptions.
+/// offline. Ctrl-C stops at once, with a checkpoint to resume from. One seed gives one champion,
+/// on any number of threads and across interruptions.
 #[derive(Clone, Debug, clap::Args)]
 pub struct TrainArgs {
-    /// A scenario: the name of a shipped one, or a file
+    /// A scenario: the name of a shipped one, a file, or a run folder for its scenario
     #[arg(default_value = "obstacles")]
     scenario: String,
 
@@ -44,19 +48,34 @@ pub struct TrainArgs {
     resume: Option<PathBuf>,
 
     /// Seed of every random draw
-    #[arg(long, default_value_t = RunSeed(1))]
+    #[arg(long, default_value_t = RunSeed(1), allow_negative_numbers = true)]
     seed: RunSeed,
 
     /// Threads to work with; all cores if not given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = whole(1..=1024_u16),
+        allow_negative_numbers = true
+    )]
     threads: Option<u16>,
 
     /// Generations to run, in all
-    #[arg(long, value_name = "N")]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = whole(TrainingSpec::GENERATIONS),
+        allow_negative_numbers = true
+    )]
     generations: Option<u32>,
 
     /// Individuals per generation
-    #[arg(long, value_name = "N")]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = whole(TrainingSpec::POPULATION),
+        allow_negative_numbers = true
+    )]
     population: Option<u32>,
 
     #[command(flatten)]
@@ -91,7 +110,18 @@ pub fn run(args: &TrainArgs, stop: &StopFlag, output: &mut Output) -> Result<(),
         Some(folder) => Run::resume(folder, args.generations, output)?,
         None => Run::begin(args)?,
     };
-    pool.install(|| run.go(stop, output))
+    let go_on = format!("{} train --resume {}", this_program(), in_shell(run.folder.path()));
+    let done = pool.install(|| run.go(stop, output));
+    done.map_err(|failure| match failure.kind() {
+        FailureKind::Interrupted { .. } => {
+            Failure::new(failure.kind(), format!("{failure}\ngo on with: {go_on}"))
+        }
+        FailureKind::InputOutput => {
+            let message = format!("{failure}\nwhen that is solved, go on with: {go_on}");
+            Failure::new(failure.kind(), message)
+        }
+        FailureKind::BadInput | FailureKind::Busy => failure,
+    })
 }
 
 impl Run {
@@ -118,16 +148,24 @@ impl Run {
     fn resume(path: &Path, generations: Option<u32>, output: &mut Output) -> Result<Self, Failure> {
         let folder = RunFolder::resume(path)?;
         let mut manifest = Manifest::<Scenario>::read(&folder)?;
-        if let Some(generations) = generations
-            && generations != manifest.scenario.training.generations
-        {
-            manifest.scenario.training.generations = generations;
-            manifest = self::manifest(RunSeed(manifest.seed), &manifest.scenario)?;
-            manifest.write(&folder)?;
-        }
         let (checkpoints, loaded) = Checkpoints::open::<Snapshot>(&folder)?;
         for warning in loaded.iter().flat_map(|loaded| &loaded.warnings) {
             output.warning(warning);
+        }
+        if let Some(generations) = generations
+            && generations != manifest.scenario.training.generations
+        {
+            let done = loaded.as_ref().map_or(0, |loaded| loaded.generation);
+            if u64::from(generations) < done {
+                return Err(Failure::bad_input(format!(
+                    "--generations: {} of the run in {} are done already; expected as many or more",
+                    counted(done, "generation"),
+                    path.display()
+                )));
+            }
+            manifest.scenario.training.generations = generations;
+            manifest = self::manifest(RunSeed(manifest.seed), &manifest.scenario)?;
+            manifest.write(&folder)?;
         }
         Ok(Self {
             folder,
@@ -141,32 +179,45 @@ impl Run {
     fn go(self, stop: &StopFlag, output: &mut Output) -> Result<(), Failure> {
         let Self { folder, seed, problem, mut checkpoints, snapshot } = self;
         let mut training = Training::new(&problem, seed)?;
+        let mut saved_generation = None;
         if let Some(snapshot) = snapshot {
             training.restore(snapshot).map_err(|error| {
                 let folder = folder.path().display();
-                Failure::bad_input(format!("the checkpoint in {folder} is of another run: {error}"))
+                Failure::bad_input(format!(
+                    "the checkpoint in {folder} does not belong to this run: {error}"
+                ))
             })?;
+            saved_generation = Some(training.generation());
         }
         let total = problem.scenario.training.generations;
         let scenario = &problem.scenario.name;
         output.status(format_args!(
-            "{scenario}: {} individuals, {total} generations, {}, seed {}, {} threads, in {}",
+            "{scenario}: {} individuals, {}, {}, seed {}, {}, in {}",
             problem.scenario.training.population,
+            counted(total, "generation"),
             problem.topology(),
             seed,
-            rayon::current_num_threads(),
+            counted(rayon::current_num_threads() as u64, "thread"),
             folder.path().display()
         ));
         let mut metrics = Metrics::start(&folder, training.history())?;
         let mut progress = Progress::start(training.generation(), total);
         let mut saved = Instant::now();
         let mut save = |training: &Training<'_>| {
-            checkpoints.save(&folder, u64::from(training.generation()), &training.snapshot())
+            let generation = training.generation();
+            if saved_generation == Some(generation) {
+                return Ok(());
+            }
+            checkpoints.save(&folder, u64::from(generation), &training.snapshot())?;
+            saved_generation = Some(generation);
+            Ok::<(), Failure>(())
         };
         while training.generation() < total && stop.requested().is_none() {
             let begun = Instant::now();
-            let row = *training.step()?;
-            let steps_per_second = row.live_steps as f64 / begun.elapsed().as_secs_f64();
+            let Some(&row) = training.step(stop)? else { break };
+            // A clock that did not move must not make the speed infinite.
+            let elapsed = begun.elapsed().max(Duration::from_nanos(1));
+            let steps_per_second = row.live_steps as f64 / elapsed.as_secs_f64();
             metrics.append(&row, steps_per_second)?;
             progress.update(output, &row, steps_per_second);
             if saved.elapsed() >= CHECKPOINT_EVERY {
@@ -177,18 +228,18 @@ impl Run {
         progress.finish();
         metrics.sync()?;
         save(&training)?;
-        if let Some(signal) = stop.requested()
-            && training.generation() < total
+        if training.generation() == total
+            && finish::finish(&folder, &problem, seed, &training, stop, output)? == Finished::Whole
         {
-            let message = format!(
-                "stopped after generation {} of {total}, checkpoint written\n\
-                 go on with: evosteer train --resume {}",
-                training.generation(),
-                folder.path().display()
-            );
-            return Err(Failure::new(FailureKind::Interrupted { signal }, message));
+            return Ok(());
         }
-        finish::finish(&folder, &problem, seed, &training, output)
+        // Only a signal brings the loop or the finish to an early end.
+        let signal = stop.requested().unwrap_or_default();
+        let message = format!(
+            "stopped after generation {} of {total}, checkpoint written",
+            training.generation()
+        );
+        Err(Failure::new(FailureKind::Interrupted { signal }, message))
     }
 }
 

@@ -112,9 +112,7 @@ impl<S: Serialize + DeserializeOwned> Manifest<S> {
     /// version, or its settings or a file it refers to have changed since; input/output
     /// when a file cannot be read.
     pub fn read(folder: &RunFolder) -> Result<Self, Failure> {
-        let path = folder.join(RunFolder::MANIFEST);
-        let bytes = fs::read(&path).map_err(|cause| Failure::io("read", &path, &cause))?;
-        let manifest = Self::parse(&path, &bytes)?;
+        let manifest = Self::read_in(folder.path())?;
         for input in &manifest.inputs {
             let now = Input::of_file(&input.path)?;
             if now.sha256 != input.sha256 {
@@ -128,6 +126,18 @@ impl<S: Serialize + DeserializeOwned> Manifest<S> {
             }
         }
         Ok(manifest)
+    }
+
+    /// The same for a folder that another process may be using, without looking at the files it
+    /// refers to.
+    ///
+    /// # Errors
+    ///
+    /// As [`Manifest::read`].
+    pub fn read_in(folder: &Path) -> Result<Self, Failure> {
+        let path = folder.join(RunFolder::MANIFEST);
+        let bytes = fs::read(&path).map_err(|cause| Failure::io("read", &path, &cause))?;
+        Self::parse(&path, &bytes)
     }
 
     fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Failure> {

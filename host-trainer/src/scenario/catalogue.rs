@@ -103,7 +103,7 @@ mod tests {
             text.contains("did you mean `obstacles`?") && text.contains("medium_maze"),
             "{text}"
         );
-        assert_eq!(find("nowhere/room.toml").unwrap_err().exit_code(), 3);
+        assert_eq!(find("nowhere/room.toml").unwrap_err().exit_code(), 2);
     }
 
     #[test]

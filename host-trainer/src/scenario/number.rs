@@ -1,5 +1,7 @@
 //! Numbers in a scenario file: their unit, their range, and decimals that read back exactly.
 
+use std::ops::RangeInclusive;
+
 use std::f64::consts::PI;
 
 use toml::de::DeValue;
@@ -150,6 +152,12 @@ impl Codec<Option<f32>> for OrInfinite {
 pub(super) struct Whole {
     pub(super) low: u32,
     pub(super) high: u32,
+}
+
+impl Whole {
+    pub(super) const fn within(range: RangeInclusive<u32>) -> Self {
+        Self { low: *range.start(), high: *range.end() }
+    }
 }
 
 impl<T: TryFrom<u32> + Copy + Into<u32>> Codec<T> for Whole {

@@ -68,8 +68,8 @@ const SPAN: Number = Number::metres(0.0, 100.0);
 const SHARE: Number = Number::share();
 /// Weights of the cost.
 const COST: Number = Number::plain(0.0, 1e9);
-/// More than anybody will wait for.
-const COUNT: Whole = Whole { low: 1, high: 1_000_000 };
+/// The longest drive, control periods: more than two hours at the default period.
+const LONGEST_DRIVE: u32 = 100_000;
 
 impl Record for Scenario {
     fn visit(&mut self, v: &mut impl Visit) {
@@ -194,7 +194,8 @@ impl Record for NetworkSpec {
 
 impl Record for EpisodeSpec {
     fn visit(&mut self, v: &mut impl Visit) {
-        v.value("step_limit", &mut self.step_limit, COUNT, "control periods");
+        let steps = Whole { low: 1, high: LONGEST_DRIVE };
+        v.value("step_limit", &mut self.step_limit, steps, "control periods");
         v.value("period_s", &mut self.period, Number::seconds(0.001, 10.0), "control period");
         let collisions = Word(words::COLLISIONS);
         v.value("on_collision", &mut self.on_collision, collisions, "what a collision does");
@@ -266,9 +267,10 @@ impl Record for Pair {
 
 impl Record for TrainingSpec {
     fn visit(&mut self, v: &mut impl Visit) {
-        let population = Whole { low: 2, high: 1_000_000 };
+        let population = Whole::within(Self::POPULATION);
         v.value("population", &mut self.population, population, "individuals");
-        v.value("generations", &mut self.generations, COUNT, "");
+        let generations = Whole::within(Self::GENERATIONS);
+        v.value("generations", &mut self.generations, generations, "");
         let bound = Number::plain(0.0, 1000.0).above();
         v.value("weight_bound", &mut self.weight_bound, bound, "weights stay within ± this");
         v.section("ga", &mut self.ga);

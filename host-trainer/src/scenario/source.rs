@@ -1,6 +1,6 @@
 //! Where the text of a scenario comes from, and how its relative paths are meant.
 
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use super::shipped;
@@ -35,10 +35,24 @@ impl Source {
     /// Input/output if it cannot be read; bad input if it is no file, longer than 4 MiB or not
     /// UTF-8.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        let unreadable = |cause| Failure::io("read scenario", path, &cause);
+        let unreadable = |cause: std::io::Error| Failure::io("read scenario", path, &cause);
+        let refused = |what: &str| {
+            Failure::bad_input(format!(
+                "SCENARIO {}: {what}; a scenario's name or file expected",
+                path.display()
+            ))
+        };
         // Asked before opening: opening a pipe would wait for its writer.
-        if !std::fs::metadata(path).map_err(unreadable)?.is_file() {
-            return Err(Failure::bad_input(format!("{} is not a file", path.display())));
+        match std::fs::metadata(path) {
+            Ok(found) if found.is_file() => {}
+            Ok(found) if found.is_dir() => return Err(refused("a folder")),
+            Ok(_) => return Err(refused("not a file")),
+            Err(cause)
+                if matches!(cause.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) =>
+            {
+                return Err(refused("no such file"));
+            }
+            Err(cause) => return Err(unreadable(cause)),
         }
         let mut bytes = Vec::new();
         let file = std::fs::File::open(path).map_err(unreadable)?;

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::destination::Destination;
 use super::plan::{Place, Plan, Target};
 use crate::blob_file::BlobFile;
+use crate::commands::advice::in_shell;
 use crate::commands::blob_summary::BlobSummary;
 use crate::fingerprint;
 use crate::output::Output;
@@ -155,20 +156,5 @@ impl Report {
             output.warning(warning);
         }
         output.json(self);
-    }
-}
-
-/// A path as one word of a POSIX shell.
-fn in_shell(path: &Path) -> String {
-    let text = path.display().to_string();
-    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"_-./+,:=@%".contains(&byte);
-    match text.as_bytes() {
-        [first, rest @ ..]
-            if *first != b'-' && is_plain(*first) && rest.iter().all(|b| is_plain(*b)) =>
-        {
-            text
-        }
-        [b'-', ..] => format!("'./{}'", text.replace('\'', r"'\''")),
-        _ => format!("'{}'", text.replace('\'', r"'\''")),
     }
 }

@@ -1,20 +1,36 @@
 //! The end of a training run: champion, plots, report, and what to do next.
 
 use crate::champion;
-use crate::evaluation::Evaluation;
+use crate::commands::advice::{counted, in_shell, this_program};
+use crate::commands::setup::shortest_name;
+use crate::episode::Outcome;
+use crate::evaluation::{self, Evaluation};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::pairs::PairSampler;
-use crate::problem::{Problem, training_drive};
+use crate::problem::{Problem, evaluation_drive, training_drive};
 use crate::report::{data::Drive, page, plots};
 use crate::run_folder::RunFolder;
 use crate::seed::RunSeed;
+use crate::signals::StopFlag;
 use crate::training::{Best, Training};
 use crate::{blob_file::BlobFile, picture};
 use serde::Serialize;
 
 /// Unseen pairs that every training run is judged on at its end.
 const UNSEEN_PAIRS: u32 = 1000;
+
+/// Most training pairs whose drives are drawn.
+const DRAWN_PAIRS: usize = 20;
+
+/// How far [`finish`] got.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Finished {
+    /// Everything is written.
+    Whole,
+    /// A signal came before that.
+    Stopped,
+}
 
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
@@ -36,10 +52,10 @@ struct OnTrainingPairs {
     pairs: usize,
     reached: usize,
     clean: usize,
-    collisions: u32,
+    collisions: u64,
 }
 
-/// Writes everything that a finished run leaves behind.
+/// Writes everything that a finished run leaves behind, the report last.
 ///
 /// # Errors
 ///
@@ -49,8 +65,9 @@ pub(super) fn finish(
     problem: &Problem,
     seed: RunSeed,
     training: &Training<'_>,
+    stop: &StopFlag,
     output: &mut Output,
-) -> Result<(), Failure> {
+) -> Result<Finished, Failure> {
     let Some(best) = training.best() else {
         return Err(Failure::bad_input(
             "--generations: 0 generations leave no champion; 1 or more expected",
@@ -62,24 +79,33 @@ pub(super) fn finish(
 
     let pairs = training.pairs(best.generation)?;
     let place = |drive| training_drive(seed, best.generation, drive);
-    let drives = picture::drives(problem, &best.genome, &pairs, place);
     let unseen = PairSampler::new(&problem.world, &problem.scenario)
         .unseen(seed, UNSEEN_PAIRS)
         .map_err(|error| Failure::bad_input(error.to_string()))?;
-    let unseen = Evaluation::of(problem, &best.genome, &unseen, seed);
-    let on_pairs = OnTrainingPairs {
-        pairs: drives.len(),
-        reached: drives.iter().filter(|drive| drive.outcome.reached).count(),
-        clean: drives.iter().filter(|drive| drive.outcome.clean()).count(),
-        collisions: drives.iter().map(|drive| drive.outcome.collisions).sum(),
+    let never_seen = |index| evaluation_drive(seed, index);
+    let (Some(trained), Some(unseen)) = (
+        evaluation::outcomes(problem, &best.genome, &pairs, place, stop),
+        evaluation::outcomes(problem, &best.genome, &unseen, never_seen, stop),
+    ) else {
+        return Ok(Finished::Stopped);
     };
-    draw(folder, problem, seed, training, best, drives, &unseen)?;
+    let unseen = Evaluation::summary(&unseen, seed);
+    let on_pairs = OnTrainingPairs {
+        pairs: trained.len(),
+        reached: trained.iter().filter(|outcome| outcome.reached).count(),
+        clean: trained.iter().filter(|outcome| Outcome::clean(outcome)).count(),
+        collisions: trained.iter().map(|outcome| u64::from(outcome.collisions)).sum(),
+    };
+    let drawn = &pairs[..pairs.len().min(DRAWN_PAIRS)];
+    let drives = picture::drives(problem, &best.genome, drawn, place);
+    draw(folder, problem, seed, training, best, drives, &on_pairs, &unseen)?;
 
     let path = |name: &str| folder.join(name).display().to_string();
     let champion = BlobFile::read(&folder.join(RunFolder::CHAMPION))?;
     let generations = training.generation();
     output.line(format_args!(
-        "trained {generations} generations; the champion is of generation {}, fitness {:.1}",
+        "trained {}; the champion is of generation {} (they count from 0), fitness {:.1}",
+        counted(generations, "generation"),
         best.generation,
         best.cost.value()
     ));
@@ -97,9 +123,10 @@ pub(super) fn finish(
         champion.blob().check()
     ));
     output.line(format_args!(
-        "next      cargo run --release -- evaluate {} {}",
-        folder.path().display(),
-        problem.scenario.name
+        "next      {} evaluate {} {}",
+        this_program(),
+        in_shell(folder.path()),
+        shortest_name(&problem.scenario, folder.path())
     ));
     output.json(&Report {
         folder: folder.path().display().to_string(),
@@ -112,9 +139,10 @@ pub(super) fn finish(
         training: on_pairs,
         unseen: &unseen,
     });
-    Ok(())
+    Ok(Finished::Whole)
 }
 
+#[expect(clippy::too_many_arguments, reason = "what a report is made of")]
 fn draw(
     folder: &RunFolder,
     problem: &Problem,
@@ -122,12 +150,13 @@ fn draw(
     training: &Training<'_>,
     best: &Best,
     drives: Vec<Drive>,
+    on_pairs: &OnTrainingPairs,
     unseen: &Evaluation,
 ) -> Result<(), Failure> {
     let plot = |name: &str, svg: &str| {
         folder.write(&format!("{}/{name}.svg", RunFolder::PLOTS), svg.as_bytes())
     };
-    let history = picture::history(training.history(), drives.len());
+    let history = picture::history(training.history(), on_pairs.pairs);
     plot("fitness", &plots::fitness_svg(&history))?;
     plot("criteria", &plots::criteria_svg(&history))?;
     let (scene, body) = (picture::scene(problem), picture::body(problem));
@@ -136,12 +165,17 @@ fn draw(
         let svg = plots::trajectory_svg(&scene, &body, drive, &title);
         plot(&format!("trajectory-{number}"), &svg)?;
     }
-    let reached = drives.iter().filter(|drive| drive.outcome.reached).count();
+    let shown = if drives.len() < on_pairs.pairs {
+        format!(" The first {} are shown.", counted(drives.len() as u64, "training pair"))
+    } else {
+        String::new()
+    };
     let summary = format!(
-        "After {} generations the champion reaches {reached} of {} training pairs. Of {} pairs \
-         it has never seen it reaches {}, and {} without touching anything.",
-        training.generation(),
-        drives.len(),
+        "After {} the champion reaches {} of {}.{shown} Of {} pairs it has never seen it \
+         reaches {}, and {} without touching anything.",
+        counted(training.generation(), "generation"),
+        on_pairs.reached,
+        counted(on_pairs.pairs as u64, "training pair"),
         unseen.pairs,
         unseen.reached_share(),
         unseen.clean_share()

@@ -9,7 +9,7 @@ use tempfile::tempdir;
 
 use super::super::*;
 use crate::checkpoint::Checkpoints;
-use crate::signals::StopFlag;
+use crate::signals::survive_a_full_file;
 use crate::test_process;
 
 const CHILD: &str = "run_folder::tests::full_disk::child_saves_too_much";
@@ -17,7 +17,7 @@ const CHILD: &str = "run_folder::tests::full_disk::child_saves_too_much";
 #[test]
 fn child_saves_too_much() {
     let Some(path) = test_process::folder() else { return };
-    StopFlag::install().unwrap();
+    survive_a_full_file().unwrap();
     let folder = RunFolder::create(&path.join("run")).unwrap();
     let (mut checkpoints, _) = Checkpoints::open::<Vec<u8>>(&folder).unwrap();
     checkpoints.save(&folder, 1, &vec![1_u8; 100]).unwrap();
