@@ -152,7 +152,8 @@ impl<'a> Training<'a> {
     /// A world in which no pair is found.
     pub fn pairs(&self, generation: u32) -> Result<Vec<Pair>, Failure> {
         let pairs = self.sampler.training(&self.problem.scenario, self.seed, generation);
-        pairs.map_err(|error| Failure::bad_input(error.to_string()))
+        pairs
+            .map_err(|error| Failure::bad_input(format!("{}: {error}", self.problem.scenario.name)))
     }
 
     /// Judges the current generation on the current rayon pool and breeds the next. None, and

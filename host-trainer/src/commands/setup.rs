@@ -7,7 +7,9 @@ use crate::output::Output;
 use crate::pairs::PairSampler;
 use crate::problem::{Problem, adopt_car};
 use crate::run_folder::{Manifest, RunFolder};
-use crate::scenario::{self, Complaint, Pair, PairSource, Preset, Scenario, Setting, Source};
+use crate::scenario::{
+    self, Complaint, Pair, PairSource, PairSpec, Preset, Scenario, Setting, Source,
+};
 use crate::seed::RunSeed;
 use crate::training::too_large;
 use std::path::Path;
@@ -135,13 +137,15 @@ pub(super) fn shortest_name(scenario: &Scenario, folder: &Path) -> String {
         scenario::all_shipped().iter().find(|entry| entry.name == scenario.name)?;
         scenario::load(&scenario::find(&scenario.name).ok()?, None, &[]).ok()
     };
-    // How a champion was found and what its drives cost does not matter to who drives there.
-    let (training, network, fitness) = (scenario.training, scenario.network, scenario.fitness);
-    match named() {
-        Some(named) if *scenario == Scenario { training, network, fitness, ..named.clone() } => {
-            scenario.name.clone()
-        }
-        _ => in_shell(folder),
+    // How a champion was found does not matter to who drives there.
+    let Some(named) = named() else { return in_shell(folder) };
+    let min_distance = named.pairs.min_distance;
+    let pairs = PairSpec { min_distance, ..scenario.pairs.clone() };
+    let Scenario { training, network, fitness, .. } = *scenario;
+    if *scenario == (Scenario { training, network, fitness, pairs, ..named }) {
+        scenario.name.clone()
+    } else {
+        in_shell(folder)
     }
 }
 

@@ -21,9 +21,6 @@ use controller_core::blob;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Longest time between two checkpoints while generations are being done.
-const CHECKPOINT_EVERY: Duration = Duration::from_secs(2);
-
 /// Evolves a controller
 ///
 /// Writes a run folder with the champion, metrics, plots, checkpoints and a report that opens
@@ -39,7 +36,8 @@ pub struct TrainArgs {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Go on with the run in this folder; only --generations, --threads and --json may join
+    /// Go on with the run in this folder, perhaps to more --generations; its scenario, seed and
+    /// population stay
     #[arg(
         long,
         value_name = "DIR",
@@ -81,6 +79,16 @@ pub struct TrainArgs {
     #[command(flatten)]
     options: ScenarioOptions,
 
+    /// Longest time between two checkpoints; 0 writes one after every generation
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value_t = 2,
+        value_parser = whole(0..=3600_u16),
+        allow_negative_numbers = true
+    )]
+    checkpoint_every: u16,
+
     /// Print the result as one JSON object
     #[arg(long)]
     pub json: bool,
@@ -111,7 +119,8 @@ pub fn run(args: &TrainArgs, stop: &StopFlag, output: &mut Output) -> Result<(),
         None => Run::begin(args)?,
     };
     let go_on = format!("{} train --resume {}", this_program(), in_shell(run.folder.path()));
-    let done = pool.install(|| run.go(stop, output));
+    let save_every = Duration::from_secs(args.checkpoint_every.into());
+    let done = pool.install(|| run.go(save_every, stop, output));
     done.map_err(|failure| match failure.kind() {
         FailureKind::Interrupted { .. } => {
             Failure::new(failure.kind(), format!("{failure}\ngo on with: {go_on}"))
@@ -176,7 +185,7 @@ impl Run {
         })
     }
 
-    fn go(self, stop: &StopFlag, output: &mut Output) -> Result<(), Failure> {
+    fn go(self, save_every: Duration, stop: &StopFlag, output: &mut Output) -> Result<(), Failure> {
         let Self { folder, seed, problem, mut checkpoints, snapshot } = self;
         let mut training = Training::new(&problem, seed)?;
         let mut saved_generation = None;
@@ -220,7 +229,7 @@ impl Run {
             let steps_per_second = row.live_steps as f64 / elapsed.as_secs_f64();
             metrics.append(&row, steps_per_second)?;
             progress.update(output, &row, steps_per_second);
-            if saved.elapsed() >= CHECKPOINT_EVERY {
+            if saved.elapsed() >= save_every {
                 save(&training)?;
                 saved = Instant::now();
             }

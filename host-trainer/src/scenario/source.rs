@@ -38,7 +38,7 @@ impl Source {
         let unreadable = |cause: std::io::Error| Failure::io("read scenario", path, &cause);
         let refused = |what: &str| {
             Failure::bad_input(format!(
-                "SCENARIO {}: {what}; a scenario's name or file expected",
+                "SCENARIO {}: {what}; the name of a scenario, its file or a run folder expected",
                 path.display()
             ))
         };
@@ -146,9 +146,9 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_is_refused_and_a_missing_file_is_an_input_output_error() {
+    fn what_is_no_file_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(Source::read(folder.path()).unwrap_err().exit_code(), 2);
-        assert_eq!(Source::read(&folder.path().join("none")).unwrap_err().exit_code(), 3);
+        assert_eq!(Source::read(&folder.path().join("none")).unwrap_err().exit_code(), 2);
     }
 }

@@ -1,0 +1,117 @@
+//! What `--json` promises to the programs that read it.
+
+use serde_json::Value;
+
+use super::bench::Bench;
+
+/// The one object on standard output.
+fn json(bench: &Bench, line: &str) -> Value {
+    let done = bench.say(line).ends_in(0);
+    let value: Value = serde_json::from_str(&done.stdout).unwrap_or_else(|error| {
+        panic!("{line}: {error}\n{}", done.stdout);
+    });
+    assert!(value.is_object(), "{line}");
+    value
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+/// Where the value is null: NaN and the infinities would be.
+fn nulls(value: &Value, path: &str, found: &mut Vec<String>) {
+    match value {
+        Value::Null => found.push(path.to_owned()),
+        Value::Array(items) => items.iter().for_each(|item| nulls(item, path, found)),
+        Value::Object(map) => {
+            map.iter().for_each(|(key, item)| nulls(item, &format!("{path}.{key}"), found));
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn an_evaluation_has_the_keys_that_others_rely_on() {
+    let bench = Bench::new();
+    bench.train("open", "run", &[]).ends_in(0);
+    let found =
+        json(&bench, "evaluate run obstacles --pairs 40 --seed 18446744073709551615 --json");
+    assert_eq!(found["pairs"], 40);
+    assert_eq!(found["seed"], u64::MAX);
+    for key in ["reached", "clean"] {
+        let share = found[key].as_f64().unwrap();
+        let interval = &found[format!("{key}_interval")];
+        let [low, high] = [0, 1].map(|end| interval[end].as_f64().unwrap());
+        assert!(0.0 <= low && low <= share && share <= high && high <= 1.0, "{found:#}");
+    }
+    assert!(found["clean"].as_f64() <= found["reached"].as_f64());
+}
+
+#[test]
+fn every_verb_prints_one_object_without_nan_or_infinity() {
+    let bench = Bench::new();
+    let train = "train open --out run --json --population 12 --generations 2 \
+                 --set pairs.count=2 --set episode.step_limit=60";
+    let run = json(&bench, train);
+    let expected = [
+        "best",
+        "champion",
+        "folder",
+        "generations",
+        "report",
+        "scenario",
+        "seed",
+        "training",
+        "unseen",
+    ];
+    assert_eq!(keys(&run), expected);
+    let lines = [
+        "evaluate run open --pairs 7 --json",
+        "replay run open --pairs 2 --json",
+        "export run --format bin --json",
+        "export run --format hex --json",
+        "export run --format uf2 --json",
+        "export run --format rs --json",
+        "inspect run --json",
+        "train --resume run --json",
+    ];
+    for line in lines {
+        let value = json(&bench, line);
+        let mut found = Vec::new();
+        nulls(&value, "", &mut found);
+        // Nothing was reached, or the drive does not loop.
+        found.retain(|path| {
+            !["mean_steps_when_reached", "loop_period"].iter().any(|end| path.ends_with(end))
+        });
+        let optional = line.starts_with("export");
+        assert!(optional || found.is_empty(), "{line}: {found:?}\n{value:#}");
+    }
+}
+
+/// People read along on standard error, so that standard output stays one object.
+#[test]
+fn words_for_people_and_json_do_not_mix() {
+    let bench = Bench::new();
+    bench.train("open", "run", &[]).ends_in(0);
+    let plain = bench.say("evaluate run open --pairs 9").ends_in(0);
+    let both = bench.say("evaluate run open --pairs 9 --json").ends_in(0);
+    assert_eq!(plain.stdout, both.stderr);
+    assert!(both.stdout.starts_with("{\n") && both.stdout.ends_with("}\n"), "{}", both.stdout);
+}
+
+/// Columns of the CSV files are numbers that any reader takes.
+#[test]
+fn metrics_hold_finite_numbers_only() {
+    let bench = Bench::new();
+    bench.train("complex", "run", &[]).ends_in(0);
+    for file in ["run/metrics.csv", "run/timing.csv"] {
+        let text = std::fs::read_to_string(bench.path(file)).unwrap();
+        let columns = text.lines().next().unwrap().split(',').count();
+        assert_eq!(text.lines().count(), 4, "{text}");
+        for line in text.lines().skip(1) {
+            let numbers: Vec<f64> = line.split(',').map(|word| word.parse().unwrap()).collect();
+            assert_eq!(numbers.len(), columns, "{line}");
+            assert!(numbers.iter().all(|number| number.is_finite()), "{line}");
+        }
+    }
+}

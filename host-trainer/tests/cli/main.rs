@@ -1,0 +1,13 @@
+//! The program as its users meet it: the built binary, its files, its words and its exit codes.
+
+mod bench;
+mod handles;
+mod help;
+mod interruptions;
+mod machines;
+mod next_steps;
+mod refusals;
+mod run_folders;
+mod same_seed;
+#[cfg(unix)]
+mod streams;

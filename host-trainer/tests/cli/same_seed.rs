@@ -1,0 +1,68 @@
+//! One seed gives the same bytes, whatever the machine does meanwhile.
+
+use super::bench::Bench;
+
+#[test]
+fn any_number_of_threads_leaves_the_same_files() {
+    let bench = Bench::new();
+    for threads in ["1", "2", "7"] {
+        bench.train("obstacles", threads, &["--threads", threads, "--seed=7"]).ends_in(0);
+    }
+    let one = bench.results("1");
+    for name in ["champion.blob", "metrics.csv", "manifest.toml", "report.html"] {
+        assert!(one.contains_key(name), "{name} is missing");
+    }
+    let plots = one.keys().filter(|name| name.ends_with(".svg")).count();
+    assert_eq!(plots, 4, "{:?}", one.keys());
+    for threads in ["2", "7"] {
+        assert!(one == bench.results(threads), "{threads} threads differ from one");
+    }
+    let checkpoint = "checkpoint-a.bin";
+    assert_eq!(bench.all_files("1")[checkpoint], bench.all_files("7")[checkpoint]);
+}
+
+#[test]
+fn another_seed_leaves_another_champion() {
+    let bench = Bench::new();
+    bench.train("open", "a", &["--seed=1"]).ends_in(0);
+    bench.train("open", "b", &["--seed=18446744073709551615"]).ends_in(0);
+    assert_ne!(bench.results("a")["champion.blob"], bench.results("b")["champion.blob"]);
+}
+
+/// Language, time zone and the working directory are not part of a run.
+#[test]
+fn another_environment_leaves_the_same_files() {
+    let bench = Bench::new();
+    bench.train("open", "a", &[]).ends_in(0);
+    std::fs::create_dir(bench.path("elsewhere")).unwrap();
+    let mut command = bench.program(["train", "open", "--out", "../b"]);
+    command.args(super::bench::TINY).current_dir(bench.path("elsewhere"));
+    command.envs([("LC_ALL", "de_DE.UTF-8"), ("LANG", "tr_TR.UTF-8"), ("TZ", "Asia/Kathmandu")]);
+    assert_eq!(command.status().unwrap().code(), Some(0));
+    assert!(bench.results("a") == bench.results("b"));
+}
+
+#[test]
+fn a_run_that_is_resumed_to_more_generations_ends_as_the_longer_run_does() {
+    let bench = Bench::new();
+    let options = |folder: &str, generations: &str| {
+        format!(
+            "train open --out {folder} --population 12 --set pairs.count=2 \
+             --set episode.step_limit=60 --generations {generations}"
+        )
+    };
+    bench.say(&options("whole", "8")).ends_in(0);
+    bench.say(&options("parts", "2")).ends_in(0);
+    bench.say("train --resume parts --generations 5").ends_in(0);
+    bench.say("train --resume parts --generations 8 --threads 1").ends_in(0);
+    assert!(bench.results("whole") == bench.results("parts"));
+}
+
+#[test]
+fn a_finished_run_that_is_resumed_stays_as_it_is() {
+    let bench = Bench::new();
+    bench.train("open", "a", &[]).ends_in(0);
+    let before = bench.all_files("a");
+    bench.say("train --resume a").ends_in(0);
+    assert!(before == bench.all_files("a"));
+}
