@@ -156,13 +156,22 @@ impl<'a> Training<'a> {
             .map_err(|error| Failure::bad_input(format!("{}: {error}", self.problem.scenario.name)))
     }
 
-    /// Judges the current generation on the current rayon pool and breeds the next. None, and
-    /// nothing has changed, if `stop` was raised meanwhile.
+    /// Judges the current generation on the current rayon pool and breeds the next.
     ///
     /// # Errors
     ///
     /// A world in which no pair is found.
-    pub fn step(&mut self, stop: &StopFlag) -> Result<Option<&MetricsRow>, Failure> {
+    pub fn step(&mut self) -> Result<&MetricsRow, Failure> {
+        let never = StopFlag::default();
+        Ok(self.step_unless(&never)?.expect("nobody raises this flag"))
+    }
+
+    /// The same; none, and nothing has changed, if `stop` was raised meanwhile.
+    ///
+    /// # Errors
+    ///
+    /// A world in which no pair is found.
+    pub fn step_unless(&mut self, stop: &StopFlag) -> Result<Option<&MetricsRow>, Failure> {
         let generation = self.generation();
         let pairs = self.pairs(generation)?;
         let population = self.search.ask();

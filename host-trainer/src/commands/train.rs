@@ -223,7 +223,7 @@ impl Run {
         };
         while training.generation() < total && stop.requested().is_none() {
             let begun = Instant::now();
-            let Some(&row) = training.step(stop)? else { break };
+            let Some(&row) = training.step_unless(stop)? else { break };
             // A clock that did not move must not make the speed infinite.
             let elapsed = begun.elapsed().max(Duration::from_nanos(1));
             let steps_per_second = row.live_steps as f64 / elapsed.as_secs_f64();

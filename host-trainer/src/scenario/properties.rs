@@ -154,7 +154,7 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
             activation: activation.1,
         });
     let randomise =
-        (0_f32..0.9, 0_f32..0.9, 0_f32..1.5).prop_map(|(wheelbase, step, steer_offset)| {
+        (0_f32..0.8, 0_f32..0.9, 0_f32..1.5).prop_map(|(wheelbase, step, steer_offset)| {
             RandomiseSpec { wheelbase, step, steer_offset }
         });
     let rules = (select(words::COLLISIONS.to_vec()), select(words::TOUCHES.to_vec()));
