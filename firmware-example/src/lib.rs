@@ -17,6 +17,7 @@
 //! | [`closed_loop`], [`room`] | driving through a room of our own, as a digest |
 //! | [`replay`] | running recorded drives again and comparing bits |
 //! | [`recorded`] | the drives that every emulated board replays |
+//! | `pico2` (on that board only) | its clock, watchdog, log and panics |
 //! | `emulated` (on a board only) | how such a board logs, panics and ends |
 #![cfg_attr(not(test), no_std)]
 
@@ -34,6 +35,8 @@ pub mod fan;
 pub mod fit;
 pub mod indicator;
 pub mod journal;
+#[cfg(all(target_os = "none", feature = "board-pico2"))]
+pub mod pico2;
 pub mod recorded;
 pub mod replay;
 pub mod room;

@@ -18,6 +18,29 @@ pub(crate) struct Board {
     pub(crate) emulator: Emulator,
 }
 
+/// A program for a board: all that building needs to know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Program {
+    /// Name of the board's folder and of the binary; the cargo feature is `board-<name>`.
+    pub(crate) name: &'static str,
+    /// Rust's name for the instruction set.
+    pub(crate) triple: &'static str,
+    /// Rust's name for the processor.
+    pub(crate) cpu: &'static str,
+}
+
+impl Program {
+    /// The cargo feature that turns its dependencies and its binary on.
+    pub(crate) fn feature(&self) -> String {
+        format!("board-{}", self.name)
+    }
+}
+
+/// Boards that no emulator stands in for. They are built by name only, `cargo xtask build <name>`:
+/// their hardware libraries take minutes to compile.
+pub(crate) const REAL: &[Program] =
+    &[Program { name: "pico2", triple: "thumbv8m.main-none-eabihf", cpu: "cortex-m33" }];
+
 /// The emulator that stands in for a board.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Emulator {
@@ -32,13 +55,14 @@ pub(crate) struct Emulator {
 }
 
 impl Board {
-    /// The cargo feature that turns its dependencies and its binary on.
-    pub(crate) fn feature(&self) -> String {
-        format!("board-{}", self.name)
+    /// What to build for it.
+    pub(crate) fn program(&self) -> Program {
+        let Self { name, triple, cpu, .. } = *self;
+        Program { name, triple, cpu }
     }
 }
 
-/// Every board there is.
+/// Every board that an emulator stands in for.
 pub(crate) const ALL: &[Board] = &[
     Board {
         name: "microbit",
@@ -90,6 +114,18 @@ pub(crate) fn chosen(options: &Options) -> Result<Vec<&'static Board>, Failure> 
     }
 }
 
+/// The programs named by the operands, real boards included, or those of all emulated boards.
+pub(crate) fn chosen_programs(options: &Options) -> Result<Vec<Program>, Failure> {
+    let real = |name: &String| REAL.iter().find(|program| program.name == name).copied();
+    match options.operands.as_slice() {
+        [] => Ok(ALL.iter().map(Board::program).collect()),
+        names => names
+            .iter()
+            .map(|name| real(name).map_or_else(|| Ok(named(name)?.program()), Ok))
+            .collect(),
+    }
+}
+
 /// The board called `name`.
 pub(crate) fn named(name: &str) -> Result<&'static Board, Failure> {
     ALL.iter().find(|board| board.name == name).ok_or_else(|| {
@@ -129,10 +165,19 @@ mod tests {
         names
     }
 
+    /// Names of emulated and real boards, sorted.
+    fn with_real() -> Vec<&'static str> {
+        let mut names = names();
+        names.extend(REAL.iter().map(|program| program.name));
+        names.sort_unstable();
+        names
+    }
+
     #[test]
     fn folders_programs_features_and_binaries_are_those_of_this_list() {
-        assert_eq!(listed("firmware-example/boards"), names());
-        assert_eq!(listed("firmware-example/src/bin"), names());
+        let names = with_real();
+        assert_eq!(listed("firmware-example/boards"), names);
+        assert_eq!(listed("firmware-example/src/bin"), names);
 
         let manifest =
             std::fs::read_to_string(root().join("firmware-example/Cargo.toml")).expect("manifest");
@@ -140,13 +185,13 @@ mod tests {
             .lines()
             .filter_map(|line| Some(line.strip_prefix("board-")?.split_once(" = [")?.0))
             .collect();
-        assert_eq!(features, names());
+        assert_eq!(features, names);
         let binaries: Vec<String> = manifest
             .split("[[bin]]\n")
             .skip(1)
             .map(|table| table.lines().take(3).collect::<Vec<_>>().join("\n"))
             .collect();
-        let expected: Vec<String> = names()
+        let expected: Vec<String> = names
             .iter()
             .map(|name| {
                 format!(

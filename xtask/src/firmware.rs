@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::boards::{self, Board};
+use crate::boards::{self, Board, Program};
 use crate::failure::Failure;
 use crate::options::Options;
 use crate::process;
@@ -11,31 +11,44 @@ use crate::targets::Toolchain;
 
 /// `cargo xtask build`: the only lines on standard output are the programs' paths.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
-    for board in boards::chosen(options)? {
-        println!("{}", build(board, options)?.display());
+    for program in boards::chosen_programs(options)? {
+        println!("{}", build_program(&program, options)?.display());
     }
     Ok(())
 }
 
 /// Builds one board and returns its program.
 pub(crate) fn build(board: &Board, options: &Options) -> Result<PathBuf, Failure> {
-    let toolchain = Toolchain::find(options.targets, board.triple)?;
-    let mut command = command("build", board, toolchain);
+    build_program(&board.program(), options)
+}
+
+fn build_program(program: &Program, options: &Options) -> Result<PathBuf, Failure> {
+    let toolchain = if boards::REAL.contains(program) {
+        // `cargo xtask fetch` gets what the emulated boards need; this target comes with its first build.
+        Toolchain::fetch(options.targets, program.triple)?
+    } else {
+        Toolchain::find(options.targets, program.triple)?
+    };
+    let mut command = program_command("build", program, toolchain);
     if let Some(sabotage) = &options.sabotage {
         command.args(["--features", &format!("sabotage-{sabotage}")]);
     }
     process::run(&mut command)?;
-    let folder = toolchain.target_dir().join(board.triple).join("firmware");
-    Ok(folder.join(board.name))
+    let folder = toolchain.target_dir().join(program.triple).join("firmware");
+    Ok(folder.join(program.name))
 }
 
 /// `cargo <verb>` for one board's program.
 pub(crate) fn command(verb: &str, board: &Board, toolchain: Toolchain) -> Command {
-    let mut command = toolchain.cargo(verb, board.triple);
+    program_command(verb, &board.program(), toolchain)
+}
+
+fn program_command(verb: &str, program: &Program, toolchain: Toolchain) -> Command {
+    let mut command = toolchain.cargo(verb, program.triple);
     // Here and not in `.cargo/config.toml`: two boards share an instruction set but not a processor.
-    let flags = format!("target.{}.rustflags=[\"-Ctarget-cpu={}\"]", board.triple, board.cpu);
+    let flags = format!("target.{}.rustflags=[\"-Ctarget-cpu={}\"]", program.triple, program.cpu);
     command.args(["--config", &flags]);
     command.args(["--quiet", "--profile", "firmware", "--package", "firmware-example"]);
-    command.args(["--features", &board.feature(), "--bin", board.name]);
+    command.args(["--features", &program.feature(), "--bin", program.name]);
     command
 }
