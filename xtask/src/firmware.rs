@@ -35,7 +35,13 @@ fn build_program(program: &Program, options: &Options) -> Result<PathBuf, Failur
     }
     process::run(&mut command)?;
     let folder = toolchain.target_dir().join(program.triple).join("firmware");
-    Ok(folder.join(program.name))
+    let built = folder.join(program.name);
+    let Some(sabotage) = &options.sabotage else { return Ok(built) };
+    // Under the board's own name somebody would run it for the real one.
+    let renamed = built.with_extension(sabotage);
+    std::fs::rename(&built, &renamed)
+        .map_err(|error| Failure::failed(format!("cannot rename {}: {error}", built.display())))?;
+    Ok(renamed)
 }
 
 /// `cargo <verb>` for one board's program.
