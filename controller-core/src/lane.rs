@@ -112,8 +112,25 @@ impl Lane for f32 {
 pub struct Lanes<const N: usize>(pub [f32; N]);
 
 /// One answer per lane of [`Lanes`].
+///
+/// Kept as bit masks, all ones or all zeros, because compilers turn those into vector
+/// instructions and arrays of `bool` into shuffles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LaneMask<const N: usize>(pub [bool; N]);
+pub struct LaneMask<const N: usize>([u32; N]);
+
+impl<const N: usize> LaneMask<N> {
+    /// What one lane says; no for a lane that there is not.
+    #[inline(always)]
+    pub fn lane(self, index: usize) -> bool {
+        self.0.get(index).is_some_and(|lane| *lane != 0)
+    }
+
+    /// Whether any lane says yes.
+    #[inline(always)]
+    pub fn any(self) -> bool {
+        self.0.iter().fold(0, |any, lane| any | lane) != 0
+    }
+}
 
 impl<const N: usize> From<f32> for Lanes<N> {
     #[inline(always)]
@@ -130,7 +147,7 @@ impl<const N: usize> Lanes<N> {
 
     #[inline(always)]
     fn compare(self, other: Self, f: impl Fn(f32, f32) -> bool) -> LaneMask<N> {
-        LaneMask(from_fn(|i| f(self.0[i], other.0[i])))
+        LaneMask(from_fn(|i| if f(self.0[i], other.0[i]) { u32::MAX } else { 0 }))
     }
 }
 
@@ -175,7 +192,7 @@ impl<const N: usize> Not for LaneMask<N> {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        Self(self.0.map(|value| !value))
+        Self(self.0.map(|lane| !lane))
     }
 }
 
@@ -194,7 +211,9 @@ impl<const N: usize> Lane for Lanes<N> {
 
     #[inline(always)]
     fn select(mask: LaneMask<N>, yes: Self, no: Self) -> Self {
-        Self(from_fn(|i| if mask.0[i] { yes.0[i] } else { no.0[i] }))
+        Self(from_fn(|i| {
+            f32::from_bits((yes.0[i].to_bits() & mask.0[i]) | (no.0[i].to_bits() & !mask.0[i]))
+        }))
     }
 
     #[inline(always)]

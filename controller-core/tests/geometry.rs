@@ -341,8 +341,8 @@ proptest! {
             let body = Body { rear, front, half_width };
             prop_assert_eq!(seen.0.0[i].to_bits(), ray.to_segment(&wall).to_bits());
             prop_assert_eq!(seen.1.0[i].to_bits(), ray.to_disc(&disc).to_bits());
-            prop_assert_eq!(felt.0.0[i], body.touches_segment(&pose, &wall));
-            prop_assert_eq!(felt.1.0[i], body.touches_disc(&pose, &disc));
+            prop_assert_eq!(felt.0.lane(i), body.touches_segment(&pose, &wall));
+            prop_assert_eq!(felt.1.lane(i), body.touches_disc(&pose, &disc));
         }
     }
 }

@@ -210,8 +210,8 @@ fn any_touches(
         cos: Lanes::from(pose.cos),
         sin: Lanes::from(pose.sin),
     };
-    walls.iter().any(|pack| body.touches_segment(&pose, pack).0.contains(&true))
-        || discs.iter().any(|pack| body.touches_disc(&pose, pack).0.contains(&true))
+    walls.iter().any(|pack| body.touches_segment(&pose, pack).any())
+        || discs.iter().any(|pack| body.touches_disc(&pose, pack).any())
 }
 
 fn lanes<T>(chunk: &[T], absent: f32, f: fn(&T) -> f32) -> Lanes<WIDTH> {
