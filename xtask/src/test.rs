@@ -63,11 +63,11 @@ fn build_boards(options: &Options) -> Result<(), Failure> {
     process::run(&mut qemu::decoder("build"))
 }
 
-/// All tests of the workspace; `CI` and `EVOSTEER_REQUIRE_ALL` make a test that would be left out
+/// All tests of the workspace, those too slow for every day included; `CI` and `EVOSTEER_REQUIRE_ALL` make a test that would be left out
 /// a failure.
 fn cargo_test(options: &Options, tally: &mut Tally) -> Result<(), Failure> {
     let mut command = process::cargo();
-    command.args(["test", "--workspace", "--no-fail-fast"]);
+    command.args(["test", "--workspace", "--no-fail-fast", "--", "--include-ignored"]);
     command.env("CI", "true").env("EVOSTEER_REQUIRE_ALL", "1");
     command.env("XTASK_TARGETS", options.targets.name()).stdout(Stdio::piped());
     let cannot = |what: &str, error| Failure::failed(format!("cannot {what} cargo test: {error}"));
