@@ -44,8 +44,8 @@ pub fn fitness_svg(history: &[Generation]) -> String {
         Curve { name: Some("best"), colour: PATH, width: 2.2, value: |g| g.best },
     ];
     let panels = vec![
-        panel("Best individual", "fitness (lower is better)", &[best], history),
-        panel("Whole population", "fitness (lower is better)", &population, history),
+        panel("Best individual", "fitness (lower is better)", &[best], None, history),
+        panel("Whole population", "fitness (lower is better)", &population, None, history),
     ];
     figure("fitness", "Fitness over generations", 1, panels)
 }
@@ -56,15 +56,15 @@ pub fn fitness_svg(history: &[Generation]) -> String {
 pub fn criteria_svg(history: &[Generation]) -> String {
     let criterion = |title, unit, colour, value: Value| {
         let curve = Curve { name: None, colour, width: 2.0, value };
-        let (plots, layout) = panel(title, unit, &[curve], history);
-        (plots, layout.with_y_axis_min(0.0))
+        panel(title, unit, &[curve], Some(0.0), history)
     };
     let pairs = history.iter().map(|g| g.pairs).max().unwrap_or(0).max(1);
     let (reached, whole_pairs) =
         criterion("Targets reached", "pairs", GOAL, |g| f64::from(g.reached));
     let whole_pairs = whole_pairs
         .with_y_axis_max(f64::from(pairs) * 1.04)
-        .with_y_tick_step(f64::from(pairs.div_ceil(6)));
+        .with_y_tick_step(f64::from(pairs.div_ceil(6)))
+        .with_y_tick_format(TickFormat::Integer);
     let panels = vec![
         criterion("Collisions", "moves in contact", COLLISION, |g| g.collisions),
         criterion("Distance to target at the end", "metres", LOOP, |g| g.distance),
@@ -74,8 +74,14 @@ pub fn criteria_svg(history: &[Generation]) -> String {
     figure("criteria", "Partial criteria over generations", 2, panels)
 }
 
-/// Curves with their axes.
-fn panel(title: &str, unit: &str, curves: &[Curve], history: &[Generation]) -> (Vec<Plot>, Layout) {
+/// Curves with their axes; the vertical one shows `floor` too, if there is one.
+fn panel(
+    title: &str,
+    unit: &str,
+    curves: &[Curve],
+    floor: Option<f64>,
+    history: &[Generation],
+) -> (Vec<Plot>, Layout) {
     let plots: Vec<Plot> = curves
         .iter()
         .flat_map(|curve| {
@@ -97,15 +103,26 @@ fn panel(title: &str, unit: &str, curves: &[Curve], history: &[Generation]) -> (
             })
         })
         .collect();
-    let last = history.iter().map(|g| g.number).max().unwrap_or(0).max(1);
-    let layout = Layout::auto_from_plots(&plots)
+    let last = f64::from(history.iter().map(|g| g.number).max().unwrap_or(0).max(1));
+    let (generations, _) = tick_step(last);
+    let values = curves.iter().flat_map(|curve| history.iter().map(curve.value));
+    let y = Axis::over(values.filter(|value| value.is_finite()).chain(floor));
+    let mut layout = Layout::auto_from_plots(&plots);
+    // kuva measures the labels on this range.
+    layout.y_range = (y.low, y.high);
+    let layout = layout
         .with_theme(theme())
         .with_title(title)
         .with_x_label("generation")
         .with_y_label(unit)
         .with_x_axis_min(0.0)
-        .with_x_axis_max(f64::from(last))
+        .with_x_axis_max(last)
+        .with_x_tick_step(generations.max(1.0))
         .with_x_tick_format(TickFormat::Integer)
+        .with_y_axis_min(y.low)
+        .with_y_axis_max(y.high)
+        .with_y_tick_step(y.step)
+        .with_y_tick_format(TickFormat::Fixed(y.decimals))
         .with_legend_position(LegendPosition::OutsideRightTop)
         .with_font_family(FONTS)
         .with_title_size(15)
@@ -113,6 +130,49 @@ fn panel(title: &str, unit: &str, curves: &[Curve], history: &[Generation]) -> (
         .with_tick_size(11)
         .with_body_size(12);
     (plots, layout)
+}
+
+/// A vertical axis from one tick to another.
+struct Axis {
+    low: f64,
+    high: f64,
+    step: f64,
+    decimals: usize,
+}
+
+impl Axis {
+    /// The axis for these finite values. It has a height even if they are all the same.
+    fn over(values: impl Iterator<Item = f64>) -> Self {
+        let ends = |ends: Option<(f64, f64)>, value: f64| {
+            Some(ends.map_or((value, value), |(low, high)| (low.min(value), high.max(value))))
+        };
+        let (mut low, mut high) = values.fold(None, ends).unwrap_or((0.0, 1.0));
+        let size = low.abs().max(high.abs());
+        if high - low <= 1e-6 * size {
+            // A criterion that stays at zero has nothing below it.
+            let room = (0.01 * size).max(1.0);
+            (low, high) = (if size == 0.0 { low } else { low - room }, high + room);
+        }
+        let (step, decimals) = tick_step(high - low);
+        let (low, high) = ((low / step).floor() * step, (high / step).ceil() * step);
+        Self { low, high, step, decimals }
+    }
+}
+
+/// A round distance between the ticks of an axis of this length, 1, 2 or 5 times a power of
+/// ten, and the decimals that its multiples have.
+fn tick_step(length: f64) -> (f64, usize) {
+    const MOST_STEPS: f64 = 6.0;
+    let least = length / MOST_STEPS;
+    let mut exponent = libm::log10(least).floor() as i32;
+    // Rounding must not skip a step that fits.
+    let fits = |factor: &f64| factor * libm::pow(10.0, f64::from(exponent)) >= least * (1.0 - 1e-9);
+    let factor = [1.0, 2.0, 5.0].into_iter().find(fits).unwrap_or_else(|| {
+        exponent += 1;
+        1.0
+    });
+    let decimals = usize::try_from(-exponent).unwrap_or(0);
+    (factor * libm::pow(10.0, f64::from(exponent)), decimals)
 }
 
 /// The finite stretches of a curve.

@@ -76,3 +76,63 @@ fn histories_without_a_point_or_with_strange_points_are_drawn() {
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{history:?}");
     }
 }
+
+/// What is written at the ticks, axis by axis.
+fn tick_texts(svg: &str) -> Vec<Vec<&str>> {
+    let texts = svg.lines().filter(|line| line.contains("font-size=\"11\""));
+    let texts: Vec<(bool, &str)> = texts
+        .map(|line| {
+            let (_, text) = line.split_once('>').unwrap();
+            (line.contains("text-anchor=\"end\""), text.split_once('<').unwrap().0)
+        })
+        .collect();
+    let axes = texts.chunk_by(|a, b| a.0 == b.0);
+    axes.map(|axis| axis.iter().map(|&(_, text)| text).collect()).collect()
+}
+
+#[test]
+fn ticks_are_plain_numbers_that_differ_however_short_or_flat_the_run() {
+    let values: [fn(f64) -> f64; 7] = [
+        |_| 0.0,
+        |_| 12_016.5,
+        |_| -20_764.3,
+        |_| 0.004,
+        |n| 12_016.5 - 0.001 * n,
+        |n| 0.03 / (n + 1.0),
+        |n| 73_249.7 - 1_234.5 * n,
+    ];
+    for count in [1, 2, 3, 10, 200] {
+        for (number, value) in values.iter().enumerate() {
+            let row = |number| {
+                let value = value(f64::from(number));
+                Generation {
+                    number,
+                    best: value,
+                    mean: value,
+                    worst: value,
+                    collisions: value.abs(),
+                    distance: value.abs(),
+                    reached: 1,
+                    pairs: 4,
+                    length: value.abs(),
+                }
+            };
+            let history: Vec<Generation> = (0..count).map(row).collect();
+            for (svg, panels) in
+                [(plots::fitness_svg(&history), 2), (plots::criteria_svg(&history), 4)]
+            {
+                let axes = tick_texts(&svg);
+                assert_eq!(axes.len(), 2 * panels, "{count} generations of values {number}");
+                for axis in axes {
+                    let at = format!("{count} generations of values {number}: {axis:?}");
+                    assert!((2..=12).contains(&axis.len()), "{at}");
+                    assert!(!axis.iter().any(|text| text.contains('e')), "{at}");
+                    let mut once = axis.clone();
+                    once.sort_unstable();
+                    once.dedup();
+                    assert_eq!(once.len(), axis.len(), "{at}");
+                }
+            }
+        }
+    }
+}
