@@ -4,7 +4,7 @@ use crate::brain::{self, Brain, NotBuiltIn};
 use crate::car::{CarModel, scaling_of};
 use crate::episode::{self, Outcome, Trace};
 use crate::failure::Failure;
-use crate::scenario::{Pair, Scenario, StepLength};
+use crate::scenario::{Pair, Scenario, StepLength, words_of};
 use crate::seed::{Purpose, RunSeed, Stream};
 use crate::world::World;
 use controller_core::activation::ActivationKind;
@@ -12,6 +12,8 @@ use controller_core::blob::Header;
 use controller_core::controller::Scaling;
 use controller_core::network::Topology;
 use controller_core::observation::{BEAMS, BeamMount, INPUTS};
+use serde::Serialize;
+use std::fmt;
 
 /// A scenario, built.
 #[derive(Debug)]
@@ -128,13 +130,31 @@ pub fn topology_of(scenario: &Scenario) -> Topology {
     }
 }
 
+/// Something about a scenario's car that a champion replaces by its own.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Replaced {
+    /// What it is, such as `beam range`.
+    pub what: &'static str,
+    /// The champion's value, with its unit: what it drives with.
+    pub champion: String,
+    /// The scenario's value, with its unit: it does not count.
+    pub scenario: String,
+}
+
+impl fmt::Display for Replaced {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { what, champion, scenario } = self;
+        write!(f, "{what} {champion}; the scenario's {scenario} does not count")
+    }
+}
+
 /// Puts the car that a champion was trained with into a scenario: a controller knows its own
-/// sensors and limits wherever it drives. Returns what changed, in words.
-pub fn adopt_car(scenario: &mut Scenario, header: &Header) -> Vec<String> {
+/// sensors and limits wherever it drives. Returns what changed.
+pub fn adopt_car(scenario: &mut Scenario, header: &Header) -> Vec<Replaced> {
     let mut changes = Vec::new();
-    let mut note = |what: &str, was: String, is: String| {
-        if was != is {
-            changes.push(format!("{what} {is}; the scenario's {was} does not count"));
+    let mut note = |what: &'static str, scenario: String, champion: String| {
+        if scenario != champion {
+            changes.push(Replaced { what, champion, scenario });
         }
     };
     let Scaling { encoding, range, steer_limit, step_lower, step_upper } = header.scaling;
@@ -150,6 +170,7 @@ pub fn adopt_car(scenario: &mut Scenario, header: &Header) -> Vec<String> {
     note("wheelbase", format!("{} m", vehicle.wheelbase), format!("{} m", header.wheelbase));
     note("period", format!("{} s", scenario.episode.period), format!("{} s", header.period));
     note("beam mounts", mounts(&sensors.beams), mounts(&header.beams));
+    note("encoding", words_of(&sensors.encoding), words_of(&encoding));
     sensors.range = range;
     sensors.encoding = encoding;
     sensors.beams = header.beams;

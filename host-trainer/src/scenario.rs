@@ -51,6 +51,7 @@ pub use preset::Preset;
 pub use problem::Complaint;
 pub use shipped::Entry;
 pub use source::Source;
+pub use words::words_of;
 pub use writer::{to_toml, to_toml_beside};
 
 /// Longest name of a scenario, bytes.

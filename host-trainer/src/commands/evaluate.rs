@@ -7,6 +7,7 @@ use crate::blob_file::BlobFile;
 use crate::evaluation::Evaluation;
 use crate::failure::Failure;
 use crate::output::Output;
+use crate::problem::Replaced;
 use crate::seed::RunSeed;
 use crate::signals::StopFlag;
 use serde::Serialize;
@@ -51,6 +52,8 @@ pub struct EvaluateArgs {
 struct Report<'a> {
     champion: String,
     scenario: &'a str,
+    /// What the champion's own car replaced in the scenario's.
+    champions_car: Vec<Replaced>,
     #[serde(flatten)]
     evaluation: &'a Evaluation,
 }
@@ -62,8 +65,8 @@ struct Report<'a> {
 /// A blob or scenario that is refused, or a world in which no pair is found.
 pub fn run(args: &EvaluateArgs, output: &mut Output) -> Result<(), Failure> {
     let champion = BlobFile::read(&args.champion)?;
-    let problem = problem_for(&champion, &args.scenario, &args.options, output)?;
-    let pairs = args.which.pairs(&problem, args.pairs, args.seed)?;
+    let (problem, replaced) = problem_for(&champion, &args.scenario, &args.options, output)?;
+    let pairs = args.which.pairs(&problem, &args.scenario, &args.options, args.pairs, args.seed)?;
     // Nothing to save: a signal ends the process.
     let never = StopFlag::default();
     let weights = champion.blob();
@@ -87,6 +90,7 @@ pub fn run(args: &EvaluateArgs, output: &mut Output) -> Result<(), Failure> {
     output.json(&Report {
         champion: champion.path().display().to_string(),
         scenario: &problem.scenario.name,
+        champions_car: replaced,
         evaluation: &evaluation,
     });
     Ok(())

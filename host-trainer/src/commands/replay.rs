@@ -6,7 +6,7 @@ use super::setup::{ScenarioOptions, WhichPairs, problem_for};
 use crate::blob_file::BlobFile;
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::problem::evaluation_drive;
+use crate::problem::{Replaced, evaluation_drive};
 use crate::report::page;
 use crate::seed::RunSeed;
 use crate::{files, picture};
@@ -58,6 +58,8 @@ pub struct ReplayArgs {
 #[derive(Debug, Serialize)]
 struct Report {
     page: String,
+    /// What the champion's own car replaced in the scenario's.
+    champions_car: Vec<Replaced>,
     drives: Vec<Driven>,
 }
 
@@ -77,12 +79,13 @@ struct Driven {
 pub fn run(args: &ReplayArgs, output: &mut Output) -> Result<(), Failure> {
     check_page(args)?;
     let champion = BlobFile::read(&args.champion)?;
-    let problem = problem_for(&champion, &args.scenario, &args.options, output)?;
-    let pairs = args.which.pairs(&problem, args.pairs, args.seed)?;
+    let (problem, replaced) = problem_for(&champion, &args.scenario, &args.options, output)?;
+    let pairs = args.which.pairs(&problem, &args.scenario, &args.options, args.pairs, args.seed)?;
     let weights = champion.blob().weights();
     let drives = picture::drives(&problem, weights, &pairs, |i| evaluation_drive(args.seed, i));
     let report = Report {
         page: args.out.display().to_string(),
+        champions_car: replaced,
         drives: drives
             .iter()
             .map(|drive| Driven {

@@ -4,8 +4,8 @@ use super::advice::in_shell;
 use crate::blob_file::BlobFile;
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::pairs::PairSampler;
-use crate::problem::{Problem, adopt_car};
+use crate::pairs::{NoPair, PairSampler};
+use crate::problem::{Problem, Replaced, adopt_car};
 use crate::run_folder::{Manifest, RunFolder};
 use crate::scenario::{
     self, Complaint, Pair, PairSource, PairSpec, Preset, Scenario, Setting, Source,
@@ -56,6 +56,8 @@ impl WhichPairs {
     pub(super) fn pairs(
         &self,
         problem: &Problem,
+        typed: &str,
+        options: &ScenarioOptions,
         count: u32,
         seed: RunSeed,
     ) -> Result<Vec<Pair>, Failure> {
@@ -67,8 +69,42 @@ impl WhichPairs {
             ))),
             _ => PairSampler::new(&problem.world, &problem.scenario)
                 .unseen(seed, count)
-                .map_err(|error| Failure::bad_input(format!("{name}: {error}"))),
+                .map_err(|none| no_pair(typed, &options.settings(), none)),
         }
+    }
+}
+
+/// Shows that training and the evaluation at its end find their pairs; `typed` and `settings` are
+/// those of [`problem`].
+///
+/// # Errors
+///
+/// A world in which no pair is found.
+pub(super) fn can_draw(
+    problem: &Problem,
+    typed: &str,
+    settings: &[Setting],
+    seed: RunSeed,
+) -> Result<(), Failure> {
+    let sampler = PairSampler::new(&problem.world, &problem.scenario);
+    sampler
+        .training(&problem.scenario, seed, 0)
+        .and_then(|_| sampler.unseen(seed, 1))
+        .map(|_| ())
+        .map_err(|none| no_pair(typed, settings, none))
+}
+
+/// Refuses a world in which no pair is found, with the place of what asks for too much.
+fn no_pair(typed: &str, settings: &[Setting], none: NoPair) -> Failure {
+    let complaint =
+        Complaint::new("pairs.min_distance_m", "no pair can be drawn", none.to_string())
+            .or_at("world.target_radius_m")
+            .or_at("pairs.count")
+            .or_at("world")
+            .help("lower `pairs.min_distance_m` or `world.target_radius_m`, or remove obstacles");
+    match source(typed) {
+        Ok(source) => scenario::refuse(&source, settings, &[complaint]),
+        Err(failure) => failure,
     }
 }
 
@@ -85,7 +121,8 @@ pub(super) fn problem(
     problem_with(name, preset, settings, |_| Ok(()))
 }
 
-/// The same with the car that a champion was trained with.
+/// The same with the car that a champion was trained with, and what of the scenario's car that
+/// replaces.
 ///
 /// # Errors
 ///
@@ -95,13 +132,16 @@ pub(super) fn problem_for(
     name: &str,
     options: &ScenarioOptions,
     output: &mut Output,
-) -> Result<Problem, Failure> {
-    problem_with(name, options.preset, &options.settings(), |scenario| {
-        for change in adopt_car(scenario, champion.blob().header()) {
+) -> Result<(Problem, Vec<Replaced>), Failure> {
+    let mut replaced = Vec::new();
+    let problem = problem_with(name, options.preset, &options.settings(), |scenario| {
+        replaced = adopt_car(scenario, champion.blob().header());
+        for change in &replaced {
             output.status(format_args!("note: driving with the champion's {change}"));
         }
         check_car(scenario, champion)
-    })
+    })?;
+    Ok((problem, replaced))
 }
 
 /// Refuses a car that no scenario could describe: a blob's numbers are only known to be

@@ -6,7 +6,7 @@ use finish::Finished;
 
 use super::advice::{counted, in_shell, this_program};
 use super::number::whole;
-use super::setup::{ScenarioOptions, problem};
+use super::setup::{ScenarioOptions, can_draw, problem};
 use crate::checkpoint::Checkpoints;
 use crate::failure::{Failure, FailureKind};
 use crate::output::{Output, Progress};
@@ -144,7 +144,8 @@ impl Run {
         }
         let problem = problem(&args.scenario, args.options.preset, &settings)?;
         // Everything that can be refused is, before a folder exists.
-        Training::new(&problem, args.seed)?.pairs(0)?;
+        Training::new(&problem, args.seed)?;
+        can_draw(&problem, &args.scenario, &settings, args.seed)?;
         let folder = match &args.out {
             Some(path) => RunFolder::create(path)?,
             None => RunFolder::choose(Path::new("runs"), &problem.scenario.name, args.seed.0)?,

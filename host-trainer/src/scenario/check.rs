@@ -122,6 +122,16 @@ fn vehicle(scenario: &Scenario, found: &mut Vec<Complaint>) {
         let title = "the front overhang is longer than the body";
         let complaint = Complaint::new("vehicle.front_overhang_m", title, detail);
         found.push(complaint.or_at("vehicle.length_m"));
+    } else if front_overhang + wheelbase > length * (1.0 + f32::EPSILON * 4.0) {
+        let detail = format!(
+            "found {front_overhang} m front overhang and {wheelbase} m wheelbase with a body of {length} m, expected both wheels under the body"
+        );
+        let title = "the rear axle lies behind the body";
+        let complaint = Complaint::new("vehicle.wheelbase_m", title, detail)
+            .or_at("vehicle.length_m")
+            .or_at("vehicle.front_overhang_m")
+            .help("all three are metres; the length is from bumper to bumper");
+        found.push(complaint);
     }
     let (StepLength::Constant(step) | StepLength::Variable { upper: step, .. }) = step;
     let longest = step * (1.0 + scenario.episode.randomise.step);

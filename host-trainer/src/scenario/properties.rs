@@ -46,17 +46,18 @@ fn any_vehicle() -> impl Strategy<Value = VehicleSpec> {
         (0_f32..0.05, 0.05_f32..0.1)
             .prop_map(|(lower, upper)| StepLength::Variable { lower, upper }),
     ];
-    let sizes = (0.25_f32..2.0, 0.2_f32..1.0, 0_f32..0.25, 0.7_f32..2.0);
+    // The length is what lies behind the rear axle, until the others are added.
+    let sizes = (0_f32..2.0, 0.2_f32..1.0, 0_f32..0.25, 0.7_f32..2.0);
     (sizes, step, 0.001_f32..1.57, proptest::option::of(0.01_f32..50.0), 0_u8..=8).prop_map(
         |(
-            (length, width, front_overhang, wheelbase),
+            (behind, width, front_overhang, wheelbase),
             step,
             steer_limit,
             servo_rate,
             delay_periods,
         )| {
             VehicleSpec {
-                length,
+                length: front_overhang + wheelbase + behind,
                 width,
                 front_overhang,
                 wheelbase,

@@ -140,6 +140,8 @@ const GEOMETRY: &[&str] = &[
     "[world]\nmax_m = [0.5, 0.5]",
     "[world.map]\nyaml = \"maps/none.yaml\"",
     "[vehicle]\nfront_overhang_m = 0.5",
+    "[vehicle]\nwheelbase_m = 30",
+    "[vehicle]\nlength_m = 0.3",
     "[vehicle]\nstep_m = 0.25",
     "[vehicle]\nwidth_m = 0.05",
     "[vehicle]\nstep_m = 0.19\n[episode.randomise]\nstep = 0.2",

@@ -11,6 +11,16 @@ use super::schema::Codec;
 use super::value::Found;
 use super::*;
 
+/// How readings become inputs, in a scenario file's words: `linear, nearest`.
+pub fn words_of(encoding: &Encoding) -> String {
+    let law = match encoding.distance {
+        DistanceLaw::Linear => "linear".to_owned(),
+        DistanceLaw::Saturating { half } => format!("saturating, half at {half} m"),
+    };
+    let code = TYPE_CODES.iter().find(|(_, code)| *code == encoding.types);
+    format!("{law}, {}", code.map_or("unknown", |(word, _)| word))
+}
+
 pub(super) const TYPE_CODES: &[(&str, TypeCode)] = &[
     ("any", TypeCode::Any),
     ("nearest", TypeCode::Nearest),

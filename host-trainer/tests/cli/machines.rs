@@ -47,6 +47,26 @@ fn an_evaluation_has_the_keys_that_others_rely_on() {
     assert!(found["clean"].as_f64() <= found["reached"].as_f64());
 }
 
+/// What people read as notes on standard error.
+#[test]
+fn what_the_champions_own_car_replaces_is_listed() {
+    let bench = Bench::new();
+    bench.train("open", "run", &[]).ends_in(0);
+    for verb in ["evaluate run tb3_sandbox", "replay run tb3_sandbox --out a.html"] {
+        let found = json(&bench, &format!("{verb} --pairs 2 --json"));
+        let expected = serde_json::json!([
+            { "what": "beam range", "champion": "10 m", "scenario": "3.5 m" },
+            { "what": "step", "champion": "0.1 m", "scenario": "0.05 m" },
+            { "what": "period", "champion": "0.1 s", "scenario": "0.05 s" },
+        ]);
+        assert_eq!(found["champions_car"], expected, "{verb}");
+    }
+    for verb in ["evaluate run open", "replay run open --out b.html"] {
+        let found = json(&bench, &format!("{verb} --pairs 2 --json"));
+        assert_eq!(found["champions_car"], serde_json::json!([]), "{verb}");
+    }
+}
+
 #[test]
 fn every_verb_prints_one_object_without_nan_or_infinity() {
     let bench = Bench::new();

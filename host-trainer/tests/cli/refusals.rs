@@ -214,9 +214,38 @@ fn a_champion_whose_steps_are_too_long_for_the_body_is_refused_before_it_drives(
     assert!(done.stderr.contains("the car could jump through a wall"), "{}", done.stderr);
     // 0.1 m per step is the champion's, whatever the scenario says.
     let line = "evaluate run open --set vehicle.length_m=0.06 --set vehicle.width_m=0.06 \
-                --set vehicle.step_m=0.01 --set vehicle.front_overhang_m=0";
+                --set vehicle.step_m=0.01 --set vehicle.front_overhang_m=0 \
+                --set vehicle.wheelbase_m=0.05";
     let done = bench.say(line).ends_in(2);
     assert!(done.stderr.contains("the car of run/champion.blob:"), "{}", done.stderr);
+}
+
+/// The blob says nothing about the body: the scenario's must have room for the champion's axles.
+#[test]
+fn a_champion_whose_wheels_would_lie_outside_the_body_is_refused() {
+    let bench = with_bad_files();
+    let line = "evaluate run open --set vehicle.length_m=0.2 --set vehicle.wheelbase_m=0.15";
+    let done = bench.say(line).ends_in(2);
+    assert!(done.stderr.contains("the rear axle lies behind the body"), "{}", done.stderr);
+    assert!(done.stderr.contains("the car of run/champion.blob:"), "{}", done.stderr);
+}
+
+#[test]
+fn a_world_without_a_pair_is_refused_alike_by_every_verb() {
+    let bench = Bench::new();
+    bench.train("open", "run", &[]).ends_in(0);
+    let full = "[world]\nboxes = [[2, 0, 10, 10]]\n[pairs]\nmin_distance_m = 11\n";
+    fs::write(bench.path("full-room.toml"), full).unwrap();
+    let said = |line: &str| bench.say(line).ends_in(2).stderr;
+    let checked = said("scenario check full-room.toml");
+    assert!(checked.contains("--> full-room.toml:4:18"), "{checked}");
+    assert!(checked.contains("= help: lower"), "{checked}");
+    for verb in ["train", "evaluate run", "replay run"] {
+        assert_eq!(said(&format!("{verb} full-room.toml")), checked, "{verb}");
+    }
+    // What `--set` asks for has its place there.
+    let asked = said("evaluate run full-room.toml --set pairs.min_distance_m=10.5");
+    assert!(asked.contains("--> --set"), "{asked}");
 }
 
 #[cfg(unix)]

@@ -4,11 +4,13 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use controller_core::observation::BEAMS;
+
 use crate::car::body_of;
 use crate::map;
 use crate::output::Output;
 use crate::problem::Problem;
-use crate::scenario::{MapSpec, OnCollision, PairSource, Scenario};
+use crate::scenario::{MapSpec, OnCollision, PairSource, Scenario, StepLength, words_of};
 use crate::world::free_space::{FreeSpace, Part};
 
 /// Parts of the free space below this share of the room are not worth mentioning.
@@ -31,6 +33,8 @@ pub(super) struct Summary {
     /// The same for each connected part, the largest first, without tiny ones.
     parts: Vec<f32>,
     target_radius_m: f32,
+    car: Car,
+    sensors: Sensors,
     /// How many pairs training drives at a time.
     pairs: u32,
     /// `listed`, `drawn`, or `drawn anew each generation`.
@@ -46,6 +50,75 @@ pub(super) struct Summary {
     generations: u32,
     /// Steps of a training run whose every drive goes on to the limit.
     most_steps: u64,
+}
+
+#[derive(Debug, Serialize)]
+struct Car {
+    length_m: f32,
+    width_m: f32,
+    wheelbase_m: f32,
+    steer_limit_deg: f32,
+    /// Least and most per control period; the same for a constant step.
+    step_m: [f32; 2],
+    period_s: f32,
+}
+
+impl Car {
+    fn of(Scenario { vehicle, episode, .. }: &Scenario) -> Self {
+        Self {
+            length_m: vehicle.length,
+            width_m: vehicle.width,
+            wheelbase_m: vehicle.wheelbase,
+            steer_limit_deg: in_degrees(vehicle.steer_limit),
+            step_m: match vehicle.step {
+                StepLength::Constant(step) => [step; 2],
+                StepLength::Variable { lower, upper } => [lower, upper],
+            },
+            period_s: episode.period,
+        }
+    }
+
+    fn in_words(&self) -> String {
+        let Self { length_m, width_m, wheelbase_m, steer_limit_deg, period_s, .. } = self;
+        let step = match self.step_m {
+            [lower, upper] if lower == upper => format!("{upper} m"),
+            [lower, upper] => format!("{lower} to {upper} m"),
+        };
+        format!(
+            "{length_m} m × {width_m} m, wheelbase {wheelbase_m} m, steers up to {steer_limit_deg}°, drives {step} in {period_s} s"
+        )
+    }
+}
+
+#[derive(Debug, Serialize)]
+struct Sensors {
+    /// Rightmost first.
+    beams_deg: [f32; BEAMS],
+    range_m: f32,
+    /// How readings become inputs: distances, then types.
+    encoding: String,
+}
+
+impl Sensors {
+    fn of(Scenario { sensors, .. }: &Scenario) -> Self {
+        Self {
+            beams_deg: sensors.beams.map(|beam| in_degrees(beam.angle)),
+            range_m: sensors.range,
+            encoding: words_of(&sensors.encoding),
+        }
+    }
+
+    fn in_words(&self) -> String {
+        let beams = self.beams_deg.map(|degrees| format!("{degrees}°")).join(", ");
+        format!("beams at {beams}, range {} m; {}", self.range_m, self.encoding)
+    }
+}
+
+/// To a hundredth of a degree: more digits are those of the radians.
+fn in_degrees(radians: f32) -> f32 {
+    let degrees = (f64::from(radians).to_degrees() * 100.0).round() / 100.0;
+    // No minus before a zero.
+    (degrees + 0.0) as f32
 }
 
 #[derive(Debug, Serialize)]
@@ -95,6 +168,8 @@ impl Summary {
             free_share: (!parts.is_empty()).then(|| shares().sum()),
             parts: shares().filter(|share| *share >= SMALL).collect(),
             target_radius_m: world.target_radius,
+            car: Car::of(&problem.scenario),
+            sensors: Sensors::of(&problem.scenario),
             pairs: count,
             pairs_are,
             min_distance_m: pairs.min_distance,
@@ -133,6 +208,8 @@ impl Summary {
         row("obstacles", format!("{} straight walls, {} discs", self.walls, self.discs));
         row("free", self.free());
         row("target", format!("{} m radius", self.target_radius_m));
+        row("car", self.car.in_words());
+        row("sensors", self.sensors.in_words());
         row("pairs", self.pairs());
         row("network", format!("{}, {} weights", self.network, self.genome_length));
         let on_collision = match self.on_collision {

@@ -108,6 +108,8 @@ fn the_summary_for_a_machine_has_the_numbers() {
     for (key, value) in [("walls", 4), ("genome_length", 265), ("step_limit", 250), ("pairs", 5)] {
         assert_eq!(found[key], value, "{text}");
     }
+    assert_eq!(found["car"]["steer_limit_deg"], 90.0, "{text}");
+    assert_eq!(found["sensors"]["beams_deg"][0], -30.0, "{text}");
     // 80 individuals, 40 generations, 5 pairs, 250 steps.
     assert_eq!(found["most_steps"], 80 * 40 * 5 * 250);
     // A band of half a car's width along each wall is lost, to the width of a cell.
