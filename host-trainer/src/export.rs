@@ -7,11 +7,13 @@
 //! | `uf2` | [`uf2`], [`family`] | a board that shows itself as a drive; holds address and chip family |
 //! | `rs` | [`rust_source`] | weights that are compiled into the program |
 //!
-//! [`board`] is the one place that knows where on a board the weights lie; [`placement`]
-//! refuses addresses that cannot work.
+//! [`board`] is the one place that knows where on a board the weights lie and what its car can
+//! do; [`placement`] refuses addresses that cannot work, and [`fit`] says what the car would
+//! refuse.
 
 pub mod board;
 pub mod family;
+pub mod fit;
 pub mod intel_hex;
 pub mod placement;
 pub mod rust_source;

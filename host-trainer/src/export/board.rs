@@ -64,6 +64,24 @@ impl Board {
         }
     }
 
+    /// The car that the shipped driving program for this board makes of it, if there is one.
+    pub fn car(&self) -> Option<&'static ShippedCar> {
+        (*self == Self::PICO_2).then_some(&ShippedCar::PICO_2)
+    }
+
+    /// Refuses an address where the shipped driving program does not look for weights.
+    ///
+    /// # Errors
+    ///
+    /// [`PlacementError::OutsideWeights`], which names [`Self::weights`].
+    pub fn check_weights(&self, address: u32) -> Result<(), PlacementError> {
+        if self.weights.contains(&address) {
+            return Ok(());
+        }
+        let Range { start, end } = self.weights;
+        Err(PlacementError::OutsideWeights { board: self.name, start, end })
+    }
+
     /// Refuses a place that this board's boot loader would not write.
     ///
     /// # Errors
@@ -88,6 +106,65 @@ impl Board {
         let sector = u64::from(self.sector);
         let start = u64::from(address) / sector * sector;
         start..(u64::from(address) + length as u64).next_multiple_of(sector)
+    }
+}
+
+/// What the shipped driving program can do, before anybody fitted it to another car.
+///
+/// The driving program has the same numbers in its calibration, and a test compares them: this
+/// crate only has to say in advance what the car would refuse.
+#[derive(Debug, PartialEq)]
+pub struct ShippedCar {
+    /// Neurons in each hidden layer of the networks it has code for.
+    pub hidden: usize,
+    /// Outputs of the networks it has code for.
+    pub outputs: usize,
+    /// Shortest and longest control period it keeps, seconds.
+    pub periods: (f32, f32),
+    /// Furthest it steers to either side, radians.
+    pub steer_limit: f32,
+    /// Fastest it drives, metres per second.
+    pub speed_limit: f32,
+    /// Furthest its sensors see, metres.
+    pub range: f32,
+    /// Front axle to rear axle, metres.
+    pub wheelbase: f32,
+    /// Share by which a champion's wheelbase may differ.
+    pub wheelbase_tolerance: f32,
+    /// Where its beams point, degrees to the left, rightmost first. All start at the middle of
+    /// the front axle.
+    pub beam_degrees: [f32; 5],
+    /// Metres that a champion's beam may start elsewhere, forwards and sideways.
+    pub mount_tolerance: f32,
+    /// Radians that a champion's beam may point elsewhere.
+    pub angle_tolerance: f32,
+}
+
+impl ShippedCar {
+    /// The car on a Raspberry Pi Pico 2.
+    pub const PICO_2: Self = Self {
+        hidden: 12,
+        outputs: 1,
+        periods: (0.02, 0.2),
+        steer_limit: 0.5,
+        speed_limit: 1.0,
+        range: 1.2,
+        wheelbase: 0.3,
+        wheelbase_tolerance: 0.1,
+        beam_degrees: [-30.0, -15.0, 0.0, 15.0, 30.0],
+        mount_tolerance: 0.05,
+        angle_tolerance: 0.053,
+    };
+
+    /// The champion's control period if this car keeps it, else one it keeps, seconds.
+    pub fn period(&self, wanted: f32) -> f32 {
+        let (shortest, longest) = self.periods;
+        if (shortest..=longest).contains(&wanted) { wanted } else { 0.1 }
+    }
+
+    /// The longest step of this car in [`Self::period`], metres.
+    pub fn step(&self, wanted_period: f32) -> f32 {
+        self.speed_limit * self.period(wanted_period)
     }
 }
 

@@ -27,6 +27,15 @@ pub enum PlacementError {
         /// First address past it.
         end: u32,
     },
+    /// Not in the region that the board keeps for weights.
+    OutsideWeights {
+        /// The board's name.
+        board: &'static str,
+        /// First address of the region.
+        start: u32,
+        /// First address past it.
+        end: u32,
+    },
     /// The bytes would leave the region that the board keeps for weights.
     NoRoom {
         /// The board's name.
@@ -50,6 +59,12 @@ impl fmt::Display for PlacementError {
             Self::OutsideFlash { board, start, end } => {
                 write!(f, "the flash of a {board} lies from {start:#010x} to {:#010x}", end - 1)
             }
+            Self::OutsideWeights { board, start, end } => write!(
+                f,
+                "the weights of a {board} lie from {start:#010x} to {:#010x}; elsewhere its \
+                 program does not find them",
+                end - 1
+            ),
             Self::NoRoom { board, length, room } => write!(
                 f,
                 "{length} bytes do not fit into the {room} bytes that a {board} has there for weights"

@@ -80,6 +80,16 @@ impl Plan {
     }
 }
 
+impl Target {
+    /// The board, if there is one and it is known.
+    pub(super) fn board(&self) -> Option<&'static Board> {
+        match self {
+            Self::Program => None,
+            Self::Probe { place, .. } | Self::Drive { place, .. } => place.board,
+        }
+    }
+}
+
 impl Place {
     /// `option` is what the board is known by: the option's name and value.
     fn resolve(
@@ -100,8 +110,11 @@ impl Place {
             }
         };
         if let Some(board) = board {
-            board.check(address, length).map_err(|error| match error {
-                PlacementError::OutsideFlash { .. } => {
+            // Who names a chip or a family may have a program that looks elsewhere.
+            let is_default = args.chip.is_none() && args.family.is_none();
+            let weights = if is_default { board.check_weights(address) } else { Ok(()) };
+            board.check(address, length).and(weights).map_err(|error| match error {
+                PlacementError::OutsideFlash { .. } | PlacementError::OutsideWeights { .. } => {
                     bad_address(address, &format!("{error}; another chip is named with --{name}"))
                 }
                 _ => bad_address(address, &error.to_string()),

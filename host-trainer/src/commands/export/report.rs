@@ -9,6 +9,8 @@ use super::plan::{Place, Plan, Target};
 use crate::blob_file::BlobFile;
 use crate::commands::advice::in_shell;
 use crate::commands::blob_summary::BlobSummary;
+use crate::export::board::Board;
+use crate::export::fit::Misfits;
 use crate::fingerprint;
 use crate::output::Output;
 
@@ -30,6 +32,8 @@ pub(super) struct Report {
     chip: Option<String>,
     /// The command that writes it to flash, where one is enough.
     command: Option<String>,
+    /// What to know before driving: why the car as shipped will refuse the champion.
+    notes: Vec<String>,
     /// The champion in the file.
     blob: BlobSummary,
     /// How the file reaches the car, in words.
@@ -55,6 +59,7 @@ impl Report {
             family: None,
             chip: None,
             command: None,
+            notes: notes(plan, champion),
             blob: BlobSummary::of(champion),
             instructions: Vec::new(),
             warning: None,
@@ -146,6 +151,7 @@ impl Report {
             format!("  blob     {} bytes{place}, check {}", blob.bytes, blob.check),
         ];
         lines.extend(self.instructions.iter().cloned());
+        lines.extend(self.notes.iter().map(|note| format!("note: {note}")));
         for line in lines {
             match self.file {
                 Some(_) => output.line(line),
@@ -157,4 +163,10 @@ impl Report {
         }
         output.json(self);
     }
+}
+
+fn notes(plan: &Plan, champion: &BlobFile) -> Vec<String> {
+    let car = plan.target.board().and_then(Board::car);
+    let misfits = car.and_then(|car| Misfits::of(champion.blob().header(), car));
+    misfits.iter().map(Misfits::to_string).collect()
 }

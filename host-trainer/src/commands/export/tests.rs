@@ -112,6 +112,25 @@ fn a_board_this_program_does_not_know_gets_other_advice() {
 }
 
 #[test]
+fn a_named_chip_or_family_takes_weights_anywhere_in_its_flash() {
+    let bench = Bench::new();
+    bench.told("--format bin --chip RP235x --address 0x10200000");
+    bench.told("--format uf2 --family rp2350-arm-s --address 0x10200000");
+}
+
+#[test]
+fn a_champion_that_the_shipped_car_takes_is_exported_without_a_note() {
+    let bench = Bench::new();
+    assert!(bench.told("--format uf2").contains("\nnote: the car as shipped takes beams"));
+    let mut fitting = SampleBlob::new::<Feedforward, 12, 1>(true);
+    fitting.header.scaling.range = 1.2;
+    fs::write(bench.path("champion.blob"), fitting.bytes()).unwrap();
+    assert!(!bench.told("--format hex").contains("note:"));
+    let json: serde_json::Value = serde_json::from_str(&bench.told("--format bin --json")).unwrap();
+    assert_eq!(json["notes"], serde_json::json!([]));
+}
+
+#[test]
 fn json_holds_what_a_machine_needs() {
     let bench = Bench::new();
     insta::assert_snapshot!(bench.told("--format hex --json"));
@@ -178,6 +197,7 @@ fn impossible_requests_are_refused_by_option_with_what_was_expected() {
         "--format hex --address 0x103f0002",
         "--format uf2 --address 0x103f0080",
         "--format uf2 --address 0x08000000",
+        "--format uf2 --address 0x10200000",
         "--format bin --address 0x103fef00",
         "--format hex --address 0xffff_ff00 --chip STM32F4",
         "--format uf2 --address 0xffff_ff00 --family stm32f4",
