@@ -111,8 +111,9 @@ impl Board {
 
 /// What the shipped driving program can do, before anybody fitted it to another car.
 ///
-/// The driving program has the same numbers in its calibration, and a test compares them: this
-/// crate only has to say in advance what the car would refuse.
+/// A copy of the numbers in the driving program's calibration (`firmware-example/src/calibration.rs`,
+/// `any_controller.rs` and `fit.rs`), which decide: this crate only says in advance what the car
+/// would refuse. Change both together.
 #[derive(Debug, PartialEq)]
 pub struct ShippedCar {
     /// Neurons in each hidden layer of the networks it has code for.
