@@ -10,6 +10,7 @@
 mod schedule;
 
 use crate::arming::Arming;
+use crate::brain::Brain;
 use crate::calibration::Checked;
 use crate::chassis::Chassis;
 use crate::clock::{Clock, Micros, Watchdog};
@@ -19,7 +20,7 @@ use crate::drivers::servo::Servo;
 use crate::drivers::target_beacon::Beacon;
 use crate::indicator::{Indicator, Signal};
 use crate::journal::{Event, Journal};
-use crate::weights::{Brain, Refusal};
+use crate::weights::{self, Refusal};
 use controller_core::control_loop::{Actuate, Decide, TickError, tick};
 use controller_core::controller::Command;
 use controller_core::observation::{BEAMS, Reading, ReadingError};
@@ -125,7 +126,7 @@ where
         // First of all; repeated and judged below, together with the steering.
         let _ = motor.stop();
 
-        let brain = Brain::load(region, calibration);
+        let brain = weights::load(region, calibration);
         let (range, period) = match &brain {
             Ok(brain) => {
                 journal.note(Event::Weights { check: brain.check(), period: brain.period() });

@@ -1,6 +1,6 @@
 //! Drives a car through the room: what it does decides what it sees next, so one differing bit grows.
 
-use crate::any_controller::{AnyController, Refusal, with_controller};
+use crate::brain::{Brain, HIDDEN, OUTPUTS, Refusal};
 use crate::room;
 use controller_core::blob::{Blob, Header};
 use controller_core::control_loop::{Actuate, Sense, tick};
@@ -31,22 +31,22 @@ pub struct Drive {
 /// Why the weights cannot be used; then nothing is driven.
 pub fn drive(region: &[u8], steps: u32) -> Result<Drive, Refusal> {
     let blob = Blob::parse_prefix(region).map_err(Refusal::Blob)?;
-    let digest = with_controller(&blob, |controller| digest(blob.header(), controller, steps))?;
-    Ok(Drive { weights: blob.check(), digest })
+    let mut brain = Brain::new(&blob)?;
+    Ok(Drive { weights: blob.check(), digest: digest(blob.header(), &mut brain, steps) })
 }
 
-fn digest(header: &Header, controller: &mut dyn AnyController, steps: u32) -> u64 {
+fn digest(header: &Header, brain: &mut Brain<'_, HIDDEN, OUTPUTS>, steps: u32) -> u64 {
     let mut car = Car { header, pose: Pose::new(0.0, 0.0, 0.0) };
     let mut digest = DIGEST.digest();
     for step in 0..steps {
         car.pose = room::start(step).unwrap_or(car.pose);
         // A bad reading has already become a stop, and this actuator refuses nothing.
-        let command = tick(&mut car, controller).unwrap_or(Command::STOP);
-        let hidden = controller.state();
+        let command = tick(&mut car, brain).unwrap_or(Command::STOP);
+        let hidden = brain.state();
         let commanded = [command.steer.radians(), command.step.metres()];
         let reached = [car.pose.x, car.pose.y, car.pose.heading];
         let values: [&[f32]; 5] =
-            [&commanded, controller.outputs(), &hidden.first, &hidden.second, &reached];
+            [&commanded, brain.outputs(), &hidden.first, &hidden.second, &reached];
         for value in values.into_iter().flatten() {
             digest.update(&value.to_bits().to_le_bytes());
         }

@@ -7,7 +7,7 @@ mod support;
 #[path = "emulated/riscv_support.rs"]
 mod support;
 
-use crate::any_controller::Refusal;
+use crate::brain::Refusal;
 use crate::{closed_loop, recorded, replay, weights_region};
 use controller_core::blob::BlobError;
 // Linked for its global logger: defmt frames leave through semihosting.

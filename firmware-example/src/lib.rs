@@ -13,7 +13,7 @@
 //! | [`calibration`] | pulses, limits and beam mounts of one car |
 //! | [`arming`], [`indicator`], [`journal`] | the button, the lamp, the log |
 //! | [`clock`] | time, and the watchdog |
-//! | [`any_controller`] | a controller for whichever network and tanh a blob names, open to inspection |
+//! | [`brain`] | a controller for whichever network and tanh a blob names, open to inspection |
 //! | [`closed_loop`], [`room`] | driving through a room of our own, as a digest |
 //! | [`replay`] | running recorded drives again and comparing bits |
 //! | [`recorded`] | the drives that every emulated board replays |
@@ -21,9 +21,9 @@
 //! | `emulated` (on a board only) | how such a board logs, panics and ends |
 #![cfg_attr(not(test), no_std)]
 
-pub mod any_controller;
 pub mod app;
 pub mod arming;
+pub mod brain;
 pub mod calibration;
 pub mod chassis;
 pub mod clock;

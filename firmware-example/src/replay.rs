@@ -1,7 +1,8 @@
 //! Drives a recorded drive again and compares every bit with the recording.
 
-use crate::any_controller::{AnyController, HIDDEN, OUTPUTS, Refusal, with_controller};
+use crate::brain::{Brain, HIDDEN, OUTPUTS, Refusal};
 use controller_core::blob::Blob;
+use controller_core::control_loop::Decide;
 use controller_core::recording::{Difference, Recording, RecordingError};
 use core::fmt;
 
@@ -31,7 +32,7 @@ pub enum ReplayError {
 impl fmt::Display for ReplayError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Weights(error) => error.fmt(f),
+            Self::Weights(error) => write!(f, "weights refused: {error}"),
             Self::Recording(error) => write!(f, "recording refused: {error}"),
             Self::OtherWeights { found, expected } => {
                 write!(f, "weights {found:016x} given, weights {expected:016x} drove")
@@ -59,12 +60,12 @@ impl From<Refusal> for ReplayError {
 /// difference.
 pub fn replay(blob: &[u8], recording: &[u8]) -> Result<usize, ReplayError> {
     let blob = Blob::parse(blob).map_err(Refusal::Blob)?;
-    with_controller(&blob, |controller| compare(&blob, controller, recording))?
+    compare(&blob, &mut Brain::new(&blob)?, recording)
 }
 
 fn compare(
     blob: &Blob<'_>,
-    controller: &mut dyn AnyController,
+    brain: &mut Brain<'_, HIDDEN, OUTPUTS>,
     recording: &[u8],
 ) -> Result<usize, ReplayError> {
     let recording =
@@ -76,9 +77,8 @@ fn compare(
     let mut agreed = 0;
     for (step, recorded) in recording.steps().enumerate() {
         let reading = recorded.reading(blob.scaling().range);
-        let command = controller.decide(reading.as_ref().map_err(|error| *error));
-        let difference =
-            recorded.first_difference(command, controller.outputs(), controller.state());
+        let command = brain.decide(reading.as_ref().map_err(|error| *error));
+        let difference = recorded.first_difference(command, brain.outputs(), brain.state());
         if let Some(difference) = difference {
             return Err(ReplayError::Difference { step, difference });
         }

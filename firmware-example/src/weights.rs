@@ -1,28 +1,20 @@
-//! From a region of flash to a controller that may drive, or the reason why not.
+//! From a region of flash to a controller that may drive this car, or the reason why not.
 //!
 //! The weights lie outside the program, in flash of their own. They are checked and tested
 //! where they lie and never copied.
 
+use crate::brain::{self, Brain};
 use crate::calibration::Checked;
 use crate::fit::{self, Misfit};
-use controller_core::activation::{ActivationKind, Libm, Micromath, Rational};
-use controller_core::blob::{Blob, BlobError, SelfTestError, WrongTopology};
-use controller_core::control_loop::Decide;
-use controller_core::controller::{Command, Controller, Scaling};
-use controller_core::network::{Elman, Feedforward, Recurrence, RecurrenceKind, SelfLoop};
-use controller_core::observation::{Reading, ReadingError};
+use controller_core::blob::Blob;
 use core::fmt;
 
 /// Why the car does not drive with what lies in its weights region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
-    /// There is no blob, or a damaged one.
-    Blob(BlobError),
-    /// The blob holds a network that this program has no code for.
-    Topology(WrongTopology),
-    /// This machine computes something else than the one that trained the weights.
-    SelfTest(SelfTestError),
+    /// No car could drive with them.
+    Unusable(brain::Refusal),
     /// The weights were trained for another car.
     Misfit(Misfit),
 }
@@ -30,9 +22,7 @@ pub enum Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Blob(error) => error.fmt(f),
-            Self::Topology(error) => error.fmt(f),
-            Self::SelfTest(error) => error.fmt(f),
+            Self::Unusable(error) => error.fmt(f),
             Self::Misfit(error) => error.fmt(f),
         }
     }
@@ -40,119 +30,25 @@ impl fmt::Display for Refusal {
 
 impl core::error::Error for Refusal {}
 
-/// What drives: the network in the weights region with its memory, whichever recurrence and
-/// tanh the blob names. `H` is the width of the hidden layers, `O` the number of outputs.
-#[derive(Clone, Debug)]
-pub struct Brain<'w, const H: usize, const O: usize> {
-    kind: Kind<'w, H, O>,
-    scaling: Scaling,
-    period: u64,
-    check: u64,
-}
-
-/// An enum and no trait object: the bound of the stack stays computable.
-#[derive(Clone, Debug)]
-enum Kind<'w, const H: usize, const O: usize> {
-    Feedforward(WithTanh<'w, Feedforward, H, O>),
-    SelfLoop(WithTanh<'w, SelfLoop, H, O>),
-    Elman(WithTanh<'w, Elman, H, O>),
-}
-
-#[derive(Clone, Debug)]
-enum WithTanh<'w, R: Recurrence, const H: usize, const O: usize> {
-    Rational(Controller<'w, R, Rational, H, O>),
-    Libm(Controller<'w, R, Libm, H, O>),
-    Micromath(Controller<'w, R, Micromath, H, O>),
-}
-
-impl<'w, const H: usize, const O: usize> Brain<'w, H, O> {
-    /// Reads the blob at the start of a region, runs its self-test on this machine, and compares
-    /// the car it was trained for with this one. The region must start at a multiple of 4 bytes
-    /// and may go on after the blob.
-    ///
-    /// # Errors
-    ///
-    /// The first reason not to drive with it.
-    pub fn load(region: &'w [u8], car: &Checked) -> Result<Self, Refusal> {
-        let blob = Blob::parse_prefix(region).map_err(Refusal::Blob)?;
-        let kind = match blob.header().topology.recurrence {
-            RecurrenceKind::Feedforward => Kind::Feedforward(WithTanh::load(&blob)?),
-            RecurrenceKind::SelfLoop => Kind::SelfLoop(WithTanh::load(&blob)?),
-            RecurrenceKind::Elman => Kind::Elman(WithTanh::load(&blob)?),
-        };
-        fit::check(blob.header(), car).map_err(Refusal::Misfit)?;
-        // At most 0.2 s after the check above; the cast rounds down to whole microseconds.
-        let period = (blob.header().period * 1e6 + 0.5) as u64;
-        Ok(Self { kind, scaling: blob.scaling(), period, check: blob.check() })
-    }
-
-    /// How inputs and outputs relate to the car.
-    pub fn scaling(&self) -> &Scaling {
-        &self.scaling
-    }
-
-    /// The control period it was trained with, microseconds.
-    pub fn period(&self) -> u64 {
-        self.period
-    }
-
-    /// The blob's check: a name for these exact weights.
-    pub fn check(&self) -> u64 {
-        self.check
-    }
-
-    /// Forgets everything: the start of another drive.
-    pub fn reset(&mut self) {
-        match &mut self.kind {
-            Kind::Feedforward(network) => network.reset(),
-            Kind::SelfLoop(network) => network.reset(),
-            Kind::Elman(network) => network.reset(),
-        }
+impl From<brain::Refusal> for Refusal {
+    fn from(refusal: brain::Refusal) -> Self {
+        Self::Unusable(refusal)
     }
 }
 
-impl<const H: usize, const O: usize> Decide for Brain<'_, H, O> {
-    fn decide(&mut self, reading: Result<&Reading, ReadingError>) -> Command {
-        match &mut self.kind {
-            Kind::Feedforward(network) => network.decide(reading),
-            Kind::SelfLoop(network) => network.decide(reading),
-            Kind::Elman(network) => network.decide(reading),
-        }
-    }
-}
-
-impl<'w, R: Recurrence, const H: usize, const O: usize> WithTanh<'w, R, H, O> {
-    fn load(blob: &Blob<'w>) -> Result<Self, Refusal> {
-        let network = blob.network::<R, H, O>().map_err(Refusal::Topology)?;
-        let scaling = blob.scaling();
-        let tested = match blob.header().activation {
-            ActivationKind::Rational => blob.self_test::<R, H, O>(Rational),
-            ActivationKind::Libm => blob.self_test::<R, H, O>(Libm),
-            ActivationKind::Micromath => blob.self_test::<R, H, O>(Micromath),
-        };
-        tested.map_err(Refusal::SelfTest)?;
-        Ok(match blob.header().activation {
-            ActivationKind::Rational => Self::Rational(Controller::new(network, Rational, scaling)),
-            ActivationKind::Libm => Self::Libm(Controller::new(network, Libm, scaling)),
-            ActivationKind::Micromath => {
-                Self::Micromath(Controller::new(network, Micromath, scaling))
-            }
-        })
-    }
-
-    fn reset(&mut self) {
-        match self {
-            Self::Rational(controller) => controller.reset(),
-            Self::Libm(controller) => controller.reset(),
-            Self::Micromath(controller) => controller.reset(),
-        }
-    }
-
-    fn decide(&mut self, reading: Result<&Reading, ReadingError>) -> Command {
-        match self {
-            Self::Rational(controller) => controller.decide(reading),
-            Self::Libm(controller) => controller.decide(reading),
-            Self::Micromath(controller) => controller.decide(reading),
-        }
-    }
+/// Reads the blob at the start of a region, runs its self-test on this machine, and compares
+/// the car it was trained for with this one. The region must start at a multiple of 4 bytes
+/// and may go on after the blob.
+///
+/// # Errors
+///
+/// The first reason not to drive with it.
+pub fn load<'w, const H: usize, const O: usize>(
+    region: &'w [u8],
+    car: &Checked,
+) -> Result<Brain<'w, H, O>, Refusal> {
+    let blob = Blob::parse_prefix(region).map_err(brain::Refusal::Blob)?;
+    let brain = Brain::new(&blob)?;
+    fit::check(blob.header(), car).map_err(Refusal::Misfit)?;
+    Ok(brain)
 }

@@ -5,7 +5,7 @@ use controller_core::blob::{Header, Provenance};
 use controller_core::controller::Scaling;
 use controller_core::network::{Elman, Feedforward, Network, Recurrence, SelfLoop, State};
 use controller_core::observation::{DistanceLaw, Encoding, INPUTS, TypeCode};
-use firmware_example::any_controller::{HIDDEN, OUTPUTS};
+use firmware_example::brain::{HIDDEN, OUTPUTS};
 use firmware_example::room;
 
 use crate::drive::{Recorded, record};

@@ -8,7 +8,7 @@ use controller_core::motion::Pose;
 use controller_core::network::{Network, Recurrence, State};
 use controller_core::observation::{BEAMS, Echo, INPUTS, Reading};
 use controller_core::recording;
-use firmware_example::any_controller::{HIDDEN, OUTPUTS};
+use firmware_example::brain::{HIDDEN, OUTPUTS};
 use firmware_example::room;
 
 /// Steps of a drive.

@@ -4,15 +4,16 @@ use controller_core::activation::{Activation, ActivationKind, Libm, Micromath, R
 use controller_core::blob::{Blob, Header};
 use controller_core::control_loop::Decide;
 use controller_core::controller::Controller;
-use controller_core::network::{Elman, Feedforward, Recurrence, SelfLoop};
+use controller_core::network::{Elman, Feedforward, Recurrence, SelfLoop, State};
 use controller_core::observation::{Echo, Reading};
-use firmware_example::weights::{Brain, Refusal};
+use firmware_example::brain::Brain;
+use firmware_example::weights::{self, Refusal};
 
 use crate::blobs::{self, RANGE};
 use crate::hardware::calibration;
 
 fn load(region: &blobs::Region) -> Result<Brain<'_, 12, 1>, Refusal> {
-    Brain::load(&region.0, &calibration())
+    weights::load(&region.0, &calibration())
 }
 
 fn refusal(region: &blobs::Region) -> String {
@@ -82,6 +83,10 @@ fn slower_gentler_shorter_sighted_weights_fit() {
     assert!(load(&blobs::region(&header)).is_ok());
 }
 
+fn bits(state: &State<f32, 12>) -> [[u32; 12]; 2] {
+    [state.first, state.second].map(|layer| layer.map(f32::to_bits))
+}
+
 /// Ten steps through the brain and through a controller built by hand, compared as bits.
 fn drives_like<R: Recurrence>(activation: impl Activation) {
     let mut header = blobs::header(blobs::topology::<R>());
@@ -99,6 +104,8 @@ fn drives_like<R: Recurrence>(activation: impl Activation) {
             let (found, expected) = (brain.decide(Ok(&reading)), by_hand.decide(Ok(&reading)));
             assert_eq!(found.steer.radians().to_bits(), expected.steer.radians().to_bits());
             assert_eq!(found.step.metres().to_bits(), expected.step.metres().to_bits());
+            assert_eq!(brain.outputs().map(f32::to_bits), by_hand.outputs().map(f32::to_bits));
+            assert_eq!(bits(brain.state()), bits(by_hand.state()));
         }
         brain.reset();
         by_hand.reset();

@@ -112,7 +112,7 @@ impl Board {
 /// What the shipped driving program can do, before anybody fitted it to another car.
 ///
 /// A copy of the numbers in the driving program's calibration (`firmware-example/src/calibration.rs`,
-/// `any_controller.rs` and `fit.rs`), which decide: this crate only says in advance what the car
+/// `brain.rs` and `fit.rs`), which decide: this crate only says in advance what the car
 /// would refuse. Change both together.
 #[derive(Debug, PartialEq)]
 pub struct ShippedCar {

@@ -40,7 +40,7 @@ pub(crate) fn erased() -> Result<(), Trouble> {
     let program = Program::build(BOARD, None)?;
     for outcome in [program.run()?, program.run_with_weights(&[0xff; 4096])?] {
         outcome.expect(0)?;
-        outcome.expect_text("not driving: weights refused: no blob here: the flash is erased")?;
+        outcome.expect_text("not driving: no blob here: the flash is erased")?;
         outcome.expect_no_text(DRIVEN)?;
     }
     Ok(())
