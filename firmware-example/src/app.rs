@@ -17,14 +17,15 @@ use crate::clock::{Clock, Micros, Watchdog};
 use crate::drivers::motor::Motor;
 use crate::drivers::rangefinder::{RangeFinders, SensorFault};
 use crate::drivers::servo::Servo;
-use crate::drivers::target_beacon::Beacon;
+use crate::hardware::Hardware;
 use crate::indicator::{Indicator, Signal};
 use crate::journal::{Event, Journal};
 use crate::weights::{self, Refusal};
 use controller_core::control_loop::{Actuate, Decide, TickError, tick};
 use controller_core::controller::Command;
 use controller_core::observation::{BEAMS, Reading, ReadingError};
-use embedded_hal::digital::{InputPin, OutputPin};
+use controller_core::units::SteerAngle;
+use embedded_hal::digital::InputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use schedule::Schedule;
 
@@ -42,35 +43,33 @@ pub const RESET_AFTER: u64 = 200_000;
 const REPORT_EVERY: u64 = 1_000_000;
 
 /// What a board has to bring.
-#[derive(Debug)]
-pub struct Parts<F, T, S, M, B, L, W, J> {
+pub struct Parts<H: Hardware> {
     /// The five range sensors.
-    pub sensors: F,
+    pub sensors: H::Sensors,
     /// The target's beacon, as the five receivers see it.
-    pub beacon: T,
+    pub beacon: H::Beacon,
     /// PWM channel of the steering servo.
-    pub servo: S,
+    pub servo: H::Servo,
     /// PWM channel of the motor's speed controller.
-    pub motor: M,
+    pub motor: H::Motor,
     /// The button; its pin is low while it is pressed.
-    pub button: B,
+    pub button: H::Button,
     /// The lamp; it is lit while its pin is high.
-    pub lamp: L,
+    pub lamp: H::Lamp,
     /// The watchdog, not yet started.
-    pub watchdog: W,
+    pub watchdog: H::Watchdog,
     /// Where events go.
-    pub journal: J,
+    pub journal: H::Journal,
 }
 
-/// A car between two control periods.
-#[derive(Debug)]
-pub struct Car<'w, F, T, S, M, B, L, W, J, const H: usize, const O: usize> {
-    chassis: Chassis<F, T, S, M>,
-    brain: Result<Brain<'w, H, O>, Refusal>,
-    button: B,
-    lamp: Indicator<L>,
-    watchdog: W,
-    journal: J,
+/// A car between two control periods. `N` is the width of the hidden layers, `O` the number of outputs.
+pub struct Car<'w, H: Hardware, const N: usize, const O: usize> {
+    chassis: Chassis<H>,
+    brain: Result<Brain<'w, N, O>, Refusal>,
+    button: H::Button,
+    lamp: Indicator<H::Lamp>,
+    watchdog: H::Watchdog,
+    journal: H::Journal,
     schedule: Schedule,
     arming: Arming,
     trouble: Trouble,
@@ -100,22 +99,11 @@ impl Decide for Parked {
     }
 }
 
-impl<'w, F, T, S, M, B, L, W, J, const H: usize, const O: usize>
-    Car<'w, F, T, S, M, B, L, W, J, H, O>
-where
-    F: RangeFinders,
-    T: Beacon,
-    S: SetDutyCycle,
-    M: SetDutyCycle,
-    B: InputPin,
-    L: OutputPin,
-    W: Watchdog,
-    J: Journal,
-{
+impl<'w, H: Hardware, const N: usize, const O: usize> Car<'w, H, N, O> {
     /// Stops the motor, loads the weights at the start of `region`, starts the sensors, and then
     /// the watchdog. What fails is noted; the car is there in any case and says so with its lamp.
     pub fn boot(
-        parts: Parts<F, T, S, M, B, L, W, J>,
+        parts: Parts<H>,
         calibration: &Checked,
         region: &'w [u8],
         clock: &mut impl Clock,
@@ -139,7 +127,7 @@ where
         };
 
         let servo = Servo::new(servo, calibration);
-        let mut chassis = Chassis::new(sensors, beacon, servo, motor, range, period);
+        let mut chassis = Chassis::<H>::new(sensors, beacon, servo, motor, range, period);
         let mut trouble = Trouble::None;
         if let Err(fault) = chassis.actuate(Command::STOP) {
             journal.note(Event::Actuator(fault));
@@ -306,21 +294,22 @@ where
     }
 }
 
+/// Motor stop and wheels straight, for a program that has failed: the motor first, and neither keeps the
+/// other from being told. What refuses is left to the watchdog.
+pub fn fail_safe(
+    servo: &mut impl SetDutyCycle,
+    motor: &mut impl SetDutyCycle,
+    calibration: &Checked,
+) {
+    let _ = Motor::new(motor, calibration).stop();
+    let _ = Servo::new(servo, calibration).steer(SteerAngle::STRAIGHT);
+}
+
 /// Drives the car for ever, one control period after the other.
-pub fn run<F, T, S, M, B, L, W, J, const H: usize, const O: usize>(
-    mut car: Car<'_, F, T, S, M, B, L, W, J, H, O>,
+pub fn run<H: Hardware, const N: usize, const O: usize>(
+    mut car: Car<'_, H, N, O>,
     clock: &mut impl Clock,
-) -> !
-where
-    F: RangeFinders,
-    T: Beacon,
-    S: SetDutyCycle,
-    M: SetDutyCycle,
-    B: InputPin,
-    L: OutputPin,
-    W: Watchdog,
-    J: Journal,
-{
+) -> ! {
     loop {
         let now = clock.wait_until(car.due());
         car.period(now);

@@ -2,16 +2,16 @@
 
 use crate::clock::Micros;
 use crate::drivers::motor::Motor;
-use crate::drivers::rangefinder::{Range, RangeFinders, SensorFault};
+use crate::drivers::rangefinder::{Range, SensorFault};
 use crate::drivers::servo::Servo;
 use crate::drivers::target_beacon::Beacon;
 use crate::fan::Fan;
+use crate::hardware::Hardware;
 use controller_core::control_loop::{Actuate, Sense};
 use controller_core::controller::Command;
 use controller_core::observation::{BEAMS, Echo, Reading, ReadingError, STALE_AFTER};
 use controller_core::units::StepLength;
 use core::fmt;
-use embedded_hal::pwm::SetDutyCycle;
 
 /// Which actuator refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,12 +35,11 @@ impl fmt::Display for ActuatorFault {
 impl core::error::Error for ActuatorFault {}
 
 /// Sensors and actuators of one car, and the control period they work in.
-#[derive(Debug)]
-pub struct Chassis<F, T, S, M> {
-    sensors: F,
-    beacon: T,
-    servo: Servo<S>,
-    motor: Motor<M>,
+pub struct Chassis<H: Hardware> {
+    sensors: H::Sensors,
+    beacon: H::Beacon,
+    servo: Servo<H::Servo>,
+    motor: Motor<H::Motor>,
     fan: Fan,
     /// How far the network was trained to see, metres.
     range: f32,
@@ -52,19 +51,13 @@ pub struct Chassis<F, T, S, M> {
     acted: bool,
 }
 
-impl<F, T, S, M> Chassis<F, T, S, M>
-where
-    F: RangeFinders,
-    T: Beacon,
-    S: SetDutyCycle,
-    M: SetDutyCycle,
-{
+impl<H: Hardware> Chassis<H> {
     /// A car whose network sees `range` metres far and decides every `period` microseconds.
     pub fn new(
-        sensors: F,
-        beacon: T,
-        servo: Servo<S>,
-        motor: Motor<M>,
+        sensors: H::Sensors,
+        beacon: H::Beacon,
+        servo: Servo<H::Servo>,
+        motor: Motor<H::Motor>,
         range: f32,
         period: u64,
     ) -> Self {
@@ -84,7 +77,7 @@ where
     }
 
     /// The range sensors, to start them.
-    pub fn sensors(&mut self) -> &mut F {
+    pub fn sensors(&mut self) -> &mut H::Sensors {
         &mut self.sensors
     }
 
@@ -139,13 +132,7 @@ where
     }
 }
 
-impl<F, T, S, M> Sense for Chassis<F, T, S, M>
-where
-    F: RangeFinders,
-    T: Beacon,
-    S: SetDutyCycle,
-    M: SetDutyCycle,
-{
+impl<H: Hardware> Sense for Chassis<H> {
     fn sense(&mut self) -> Result<Reading, ReadingError> {
         self.fan.update(&mut self.sensors, self.now);
         let seen = self.beacon.seen();
@@ -164,13 +151,7 @@ where
     }
 }
 
-impl<F, T, S, M> Actuate for Chassis<F, T, S, M>
-where
-    F: RangeFinders,
-    T: Beacon,
-    S: SetDutyCycle,
-    M: SetDutyCycle,
-{
+impl<H: Hardware> Actuate for Chassis<H> {
     type Error = ActuatorFault;
 
     fn actuate(&mut self, command: Command) -> Result<(), ActuatorFault> {

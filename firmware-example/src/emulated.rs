@@ -71,6 +71,13 @@ pub fn fail() -> ! {
     process::exit(1)
 }
 
+/// Reports what went wrong and ends the run badly.
+#[cfg(feature = "cortex-m")]
+pub(crate) fn fail_saying(report: impl FnOnce()) -> ! {
+    report();
+    fail()
+}
+
 /// Reports the panic and ends the run: without an exit QEMU would sit in the handler for ever.
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {

@@ -7,6 +7,7 @@
 //! | --- | --- |
 //! | [`app`] | the program that drives a car |
 //! | [`drivers`] | its hardware over `embedded-hal` traits |
+//! | [`hardware`] | the types of one car's parts |
 //! | [`chassis`], [`fan`] | the car as the control loop sees it; filtered range readings |
 //! | [`weights`], [`fit`] | the blob in flash, and whether it was trained for this car |
 //! | `weights_region` (on a board only) | where that blob lies |
@@ -17,7 +18,7 @@
 //! | [`closed_loop`], [`room`] | driving through a room of our own, as a digest |
 //! | [`replay`] | running recorded drives again and comparing bits |
 //! | [`recorded`] | the drives that every emulated board replays |
-//! | `pico2` (on that board only) | its clock, watchdog, log and panics |
+//! | `pico2` (on that board only) | its calibration, clock, watchdog, log, and how it fails |
 //! | `emulated` (on a board only) | how such a board logs, panics and ends |
 #![cfg_attr(not(test), no_std)]
 
@@ -31,8 +32,15 @@ pub mod closed_loop;
 pub mod drivers;
 #[cfg(all(target_os = "none", feature = "emulated"))]
 pub mod emulated;
+#[cfg(all(
+    target_os = "none",
+    feature = "cortex-m",
+    any(feature = "emulated", feature = "board-pico2")
+))]
+mod exceptions;
 pub mod fan;
 pub mod fit;
+pub mod hardware;
 pub mod indicator;
 pub mod journal;
 #[cfg(all(target_os = "none", feature = "board-pico2"))]

@@ -1,23 +1,68 @@
-//! What the Raspberry Pi Pico 2 brings besides pins: time, watchdog, log, and what happens on a panic.
-#![expect(
-    unsafe_code,
-    reason = "cortex-m-rt wants its handlers declared unsafe; they do nothing unsafe"
-)]
+//! What the Raspberry Pi Pico 2 brings besides pins: its calibration, time, watchdog and log.
 
-use crate::calibration::CalibrationError;
+mod fail_safe;
+
+pub(crate) use fail_safe::fail;
+
+use crate::calibration::{Calibration, CalibrationError};
 use crate::clock::{Clock, Micros, Watchdog};
-use cortex_m::peripheral::SCB;
-use cortex_m_rt::{ExceptionFrame, exception};
+use crate::drivers::target_beacon::Receivers;
+use crate::drivers::tof_array::TofArray;
+use crate::hardware::Hardware;
+use crate::journal::DefmtLog;
 // Linked for its global logger: defmt frames wait in memory for a debug probe.
 use defmt_rtt as _;
 use embassy_rp::Peri;
-use embassy_rp::peripherals::WATCHDOG;
-use embassy_time::{Duration, Instant};
+use embassy_rp::clocks::clk_sys_freq;
+use embassy_rp::gpio::{Input, Output, OutputOpenDrain};
+use embassy_rp::i2c::{Blocking, I2c};
+use embassy_rp::peripherals::{I2C0, PIN_16, PIN_18, PWM_SLICE0, PWM_SLICE1, WATCHDOG};
+use embassy_rp::pwm::{self, Pwm};
+use embassy_rp::watchdog::ResetReason;
+use embassy_time::{Delay, Duration, Instant};
 
 defmt::timestamp!("{=u64:us}", Instant::now().as_micros());
 
+/// What this car is like. Measure yours and write it here; then train with the same numbers.
+pub const CALIBRATION: Calibration = Calibration::UNFITTED;
+
 /// Booting may take this long: five sensors calibrate themselves.
 const BOOT: Duration = Duration::from_secs(8);
+
+/// The types of this car's parts.
+#[derive(Clone, Copy, Debug)]
+pub enum Pico2 {}
+
+impl Hardware for Pico2 {
+    type Sensors = TofArray<I2c<'static, I2C0, Blocking>, OutputOpenDrain<'static>, Delay>;
+    type Beacon = Receivers<Input<'static>>;
+    type Servo = Pwm<'static>;
+    type Motor = Pwm<'static>;
+    type Button = Input<'static>;
+    type Lamp = Output<'static>;
+    type Watchdog = Dog;
+    type Journal = DefmtLog;
+}
+
+/// The steering servo's channel, without pulses yet. The types say which pin it is, here and when the
+/// program fails.
+pub fn servo(slice: Peri<'static, PWM_SLICE0>, pin: Peri<'static, PIN_16>) -> Pwm<'static> {
+    Pwm::new_output_a(slice, pin, frames(CALIBRATION.servo.frame))
+}
+
+/// The speed controller's channel, in the same way.
+pub fn motor(slice: Peri<'static, PWM_SLICE1>, pin: Peri<'static, PIN_18>) -> Pwm<'static> {
+    Pwm::new_output_a(slice, pin, frames(CALIBRATION.motor.frame))
+}
+
+/// One count a microsecond, one round a frame.
+fn frames(microseconds: u16) -> pwm::Config {
+    let mut config = pwm::Config::default();
+    // 150 MHz: fits the divider.
+    config.divider = u8::try_from(clk_sys_freq() / 1_000_000).unwrap_or(u8::MAX).into();
+    config.top = microseconds.saturating_sub(1);
+    config
+}
 
 /// The chip's microsecond timer.
 #[derive(Clone, Copy, Debug)]
@@ -49,8 +94,10 @@ impl Dog {
     /// Starts the watchdog with time enough to boot, and says so if it was what reset the chip.
     pub fn guarding_boot(peripheral: Peri<'static, WATCHDOG>) -> Self {
         let mut watchdog = embassy_rp::watchdog::Watchdog::new(peripheral);
-        if watchdog.reset_reason().is_some() {
-            defmt::warn!("the watchdog reset the board");
+        match watchdog.reset_reason() {
+            Some(ResetReason::TimedOut) => defmt::warn!("the watchdog reset the board"),
+            Some(ResetReason::Forced) => defmt::warn!("the program failed and reset the board"),
+            None => {}
         }
         watchdog.start(BOOT);
         Self { watchdog, timeout: BOOT }
@@ -75,27 +122,4 @@ pub fn halt(error: CalibrationError) -> ! {
     loop {
         cortex_m::asm::wfi();
     }
-}
-
-/// Reports the panic and resets the chip: booting stops the motor before anything else.
-#[panic_handler]
-fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
-    defmt::error!("panic: {}", defmt::Display2Format(info));
-    SCB::sys_reset()
-}
-
-#[exception]
-unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
-    defmt::error!(
-        "hard fault at pc {=u32:#010x}, called from {=u32:#010x}",
-        frame.pc(),
-        frame.lr()
-    );
-    SCB::sys_reset()
-}
-
-#[exception]
-unsafe fn DefaultHandler(interrupt: i16) -> ! {
-    defmt::error!("interrupt {=i16} has no handler", interrupt);
-    SCB::sys_reset()
 }

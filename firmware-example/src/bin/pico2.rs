@@ -3,30 +3,27 @@
 #![no_main]
 
 use controller_core::observation::BEAMS;
-use embassy_rp::clocks::clk_sys_freq;
 use embassy_rp::gpio::{Input, Level, Output, OutputOpenDrain, Pull};
 use embassy_rp::i2c::{self, I2c};
-use embassy_rp::pwm::{self, Pwm};
 use embassy_time::Delay;
 use firmware_example::app::{self, Car, Parts};
 use firmware_example::brain::{HIDDEN, OUTPUTS};
-use firmware_example::calibration::Calibration;
 use firmware_example::drivers::target_beacon::Receivers;
 use firmware_example::drivers::tof_array::TofArray;
 use firmware_example::journal::DefmtLog;
-use firmware_example::pico2::{self, Dog, Timer};
+use firmware_example::pico2::{self, Dog, Pico2, Timer};
 use firmware_example::weights_region;
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let p = embassy_rp::init(embassy_rp::config::Config::default());
-    let calibration = match Calibration::UNFITTED.check() {
+    let calibration = match pico2::CALIBRATION.check() {
         Ok(checked) => checked,
         Err(error) => pico2::halt(error),
     };
 
-    let servo = Pwm::new_output_a(p.PWM_SLICE0, p.PIN_16, frames(calibration.get().servo.frame));
-    let motor = Pwm::new_output_a(p.PWM_SLICE1, p.PIN_18, frames(calibration.get().motor.frame));
+    let servo = pico2::servo(p.PWM_SLICE0, p.PIN_16);
+    let motor = pico2::motor(p.PWM_SLICE1, p.PIN_18);
 
     // Reset here too if the sensors' bus hangs at boot.
     let watchdog = Dog::guarding_boot(p.WATCHDOG);
@@ -59,16 +56,6 @@ fn main() -> ! {
     };
     let mut timer = Timer;
     let region = weights_region::bytes();
-    let car: Car<'_, _, _, _, _, _, _, _, _, HIDDEN, OUTPUTS> =
-        Car::boot(parts, &calibration, region, &mut timer);
+    let car = Car::<Pico2, HIDDEN, OUTPUTS>::boot(parts, &calibration, region, &mut timer);
     app::run(car, &mut timer)
-}
-
-/// One count a microsecond, one round a frame.
-fn frames(microseconds: u16) -> pwm::Config {
-    let mut config = pwm::Config::default();
-    // 150 MHz: fits the divider.
-    config.divider = u8::try_from(clk_sys_freq() / 1_000_000).unwrap_or(u8::MAX).into();
-    config.top = microseconds.saturating_sub(1);
-    config
 }

@@ -3,6 +3,7 @@
 use controller_core::network::Elman;
 use controller_core::observation::{BEAMS, ReadingError};
 use embedded_hal::i2c::ErrorKind;
+use firmware_example::app::{Parts, fail_safe};
 use firmware_example::chassis::ActuatorFault;
 use firmware_example::clock::Micros;
 use firmware_example::drivers::rangefinder::{BusFault, SensorFault};
@@ -10,7 +11,7 @@ use firmware_example::indicator::Signal;
 use firmware_example::journal::Event;
 
 use crate::blobs;
-use crate::hardware::{PERIOD, STOPPED, TestCar, World, arm, step, step_silent};
+use crate::hardware::{PERIOD, STOPPED, TestCar, World, arm, calibration, step, step_silent};
 
 const AHEAD: [u16; BEAMS] = [600; BEAMS];
 
@@ -201,6 +202,25 @@ fn an_armed_car_never_moves_while_any_fault_lasts() {
                 step(&world, car, AHEAD);
                 assert_eq!(world.pulses()[1], STOPPED[1], "breakage {index}");
             }
+        });
+    }
+}
+
+#[test]
+fn a_program_that_fails_stops_the_motor_first_then_straightens_the_wheels_whichever_obeys() {
+    for broken in [None, Some("motor"), Some("servo")] {
+        driving(|world, _| {
+            world.with(|outside| {
+                outside.pulses.clear();
+                outside.motor.broken = broken == Some("motor");
+                outside.servo.broken = broken == Some("servo");
+            });
+            let Parts { mut servo, mut motor, .. } = world.parts();
+            fail_safe(&mut servo, &mut motor, &calibration());
+            let expected = [("motor", 1500), ("servo", 1500)];
+            let told: Vec<_> =
+                expected.into_iter().filter(|(channel, _)| Some(*channel) != broken).collect();
+            assert_eq!(world.with(|outside| outside.pulses.clone()), told);
         });
     }
 }

@@ -15,6 +15,7 @@ use firmware_example::calibration::{Calibration, Checked};
 use firmware_example::clock::{Clock, Micros, Watchdog};
 use firmware_example::drivers::target_beacon::Receivers;
 use firmware_example::drivers::tof_array::{DEFAULT_ADDRESS, TofArray};
+use firmware_example::hardware::Hardware;
 use firmware_example::journal::{Event, Journal};
 
 /// Everything outside the program. One microsecond of pulse is one step of duty.
@@ -154,7 +155,7 @@ impl World {
         TofArray::new(Bus(self.clone()), lines, Sleep(self.clone()))
     }
 
-    pub(crate) fn parts(&self) -> TestParts {
+    pub(crate) fn parts(&self) -> Parts<Simulated> {
         Parts {
             sensors: self.tof_array(),
             beacon: Receivers(core::array::from_fn(|beam| Receiver(self.clone(), beam))),
@@ -194,21 +195,21 @@ pub(crate) fn calibration() -> Checked {
     Calibration::UNFITTED.check().expect("the calibration is good")
 }
 
-pub(crate) type TestParts =
-    Parts<TofArray<Bus, Shutdown, Sleep>, Receivers<Receiver>, Pwm, Pwm, Button, Lamp, Dog, Log>;
-pub(crate) type TestCar<'w> = Car<
-    'w,
-    TofArray<Bus, Shutdown, Sleep>,
-    Receivers<Receiver>,
-    Pwm,
-    Pwm,
-    Button,
-    Lamp,
-    Dog,
-    Log,
-    12,
-    1,
->;
+/// The types of the simulated car's parts.
+pub(crate) enum Simulated {}
+
+impl Hardware for Simulated {
+    type Sensors = TofArray<Bus, Shutdown, Sleep>;
+    type Beacon = Receivers<Receiver>;
+    type Servo = Pwm;
+    type Motor = Pwm;
+    type Button = Button;
+    type Lamp = Lamp;
+    type Watchdog = Dog;
+    type Journal = Log;
+}
+
+pub(crate) type TestCar<'w> = Car<'w, Simulated, 12, 1>;
 
 /// Runs one control period when it is due; every sensor that ranges measures `distances` before.
 pub(crate) fn step(world: &World, car: &mut TestCar<'_>, distances: [u16; BEAMS]) {
