@@ -20,6 +20,7 @@ use crate::drivers::servo::Servo;
 use crate::hardware::Hardware;
 use crate::indicator::{Indicator, Signal};
 use crate::journal::{Event, Journal};
+use crate::odometry::Odometry;
 use crate::weights::{self, Refusal};
 use controller_core::control_loop::{Actuate, Decide, TickError, tick};
 use controller_core::controller::Command;
@@ -77,6 +78,8 @@ pub struct Car<'w, H: Hardware, const N: usize, const O: usize> {
     reading: Option<ReadingError>,
     faults: [Option<SensorFault>; BEAMS],
     steps: u32,
+    wheelbase: f32,
+    believed: Odometry,
     reported: Micros,
 }
 
@@ -159,6 +162,8 @@ impl<'w, H: Hardware, const N: usize, const O: usize> Car<'w, H, N, O> {
             reading: None,
             faults: [None; BEAMS],
             steps: 0,
+            wheelbase: calibration.get().wheelbase,
+            believed: Odometry::default(),
             reported: now,
         }
     }
@@ -224,7 +229,9 @@ impl<'w, H: Hardware, const N: usize, const O: usize> Car<'w, H, N, O> {
         self.arming = before.next(pressed, now);
         match (before, self.arming) {
             (Arming::Ready, Arming::Armed) => self.arm(now),
-            (Arming::Armed, Arming::Blocked) => self.journal.note(Event::Disarmed),
+            (Arming::Armed, Arming::Blocked) => {
+                self.journal.note(Event::Disarmed { believed: self.believed });
+            }
             _ => {}
         }
     }
@@ -235,6 +242,7 @@ impl<'w, H: Hardware, const N: usize, const O: usize> Car<'w, H, N, O> {
             (Ok(brain), Trouble::None) => {
                 brain.reset();
                 self.steps = 0;
+                self.believed = Odometry::default();
                 self.reported = now;
                 self.journal.note(Event::Armed);
                 return;
@@ -261,9 +269,11 @@ impl<'w, H: Hardware, const N: usize, const O: usize> Car<'w, H, N, O> {
         }
         if self.arming == Arming::Armed {
             self.steps = self.steps.saturating_add(1);
+            self.believed.follow(command, self.wheelbase);
             if now.since(self.reported) >= REPORT_EVERY {
                 self.reported = now;
-                self.journal.note(Event::Driving { step: self.steps, command });
+                let (step, believed) = (self.steps, self.believed);
+                self.journal.note(Event::Driving { step, command, believed });
             }
         }
     }

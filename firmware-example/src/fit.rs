@@ -9,13 +9,13 @@ use core::fmt;
 pub const PERIODS: core::ops::RangeInclusive<f32> = 0.02..=0.2;
 
 /// A wheelbase may differ by this share.
-const WHEELBASE_TOLERANCE: f32 = 0.1;
+pub const WHEELBASE_TOLERANCE: f32 = 0.1;
 
 /// A beam may start this many metres away from where it was trained.
-const MOUNT_TOLERANCE: f32 = 0.05;
+pub const MOUNT_TOLERANCE: f32 = 0.05;
 
 /// A beam may point this many radians (3°) away from where it was trained.
-const ANGLE_TOLERANCE: f32 = 0.053;
+pub const ANGLE_TOLERANCE: f32 = 0.053;
 
 /// Limits are compared with this allowance for rounding.
 const ROUNDING: f32 = 1.001;

@@ -2,6 +2,7 @@
 
 use crate::chassis::ActuatorFault;
 use crate::drivers::rangefinder::{SensorFault, StartError};
+use crate::odometry::Odometry;
 use crate::weights::Refusal;
 use controller_core::controller::Command;
 use controller_core::observation::ReadingError;
@@ -27,7 +28,10 @@ pub enum Event {
     /// The button was held long enough and let go.
     Armed,
     /// The button was pressed.
-    Disarmed,
+    Disarmed {
+        /// Where the drive ended, as far as the car knows.
+        believed: Odometry,
+    },
     /// The button cannot be read; the car is disarmed.
     NoButton,
     /// A good reading after bad ones.
@@ -58,6 +62,8 @@ pub enum Event {
         step: u32,
         /// The command in force.
         command: Command,
+        /// Where it is, as far as it knows.
+        believed: Odometry,
     },
 }
 
@@ -69,7 +75,7 @@ impl Event {
             Self::Weights { .. }
                 | Self::Sensors
                 | Self::Armed
-                | Self::Disarmed
+                | Self::Disarmed { .. }
                 | Self::Recovered
                 | Self::Restarting
                 | Self::Driving { .. }
@@ -87,7 +93,7 @@ impl fmt::Display for Event {
             Self::Sensors => f.write_str("all range sensors run"),
             Self::NoSensors(error) => write!(f, "not driving: {error}"),
             Self::Armed => f.write_str("armed"),
-            Self::Disarmed => f.write_str("disarmed"),
+            Self::Disarmed { believed } => write!(f, "disarmed: {believed}"),
             Self::NoButton => f.write_str("disarmed: the button cannot be read"),
             Self::Recovered => f.write_str("readings are good again"),
             Self::Stopped(error) => write!(f, "stopped: {error}"),
@@ -98,10 +104,10 @@ impl fmt::Display for Event {
             Self::Actuator(fault) => write!(f, "disarmed, waiting for the watchdog: {fault}"),
             Self::Late { by } => write!(f, "a control period began {by} µs late"),
             Self::Restarting => f.write_str("restarting"),
-            Self::Driving { step, command } => write!(
+            Self::Driving { step, command, believed } => write!(
                 f,
-                "step {step}: steer {} rad, {} m a step",
-                command.steer.radians(),
+                "step {step}: steer {:.0}°, {:.3} m a step; {believed}",
+                command.steer.radians().to_degrees(),
                 command.step.metres()
             ),
         }

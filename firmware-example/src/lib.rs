@@ -13,6 +13,7 @@
 //! | `weights_region` (on a board only) | where that blob lies |
 //! | [`calibration`] | pulses, limits and beam mounts of one car |
 //! | [`arming`], [`indicator`], [`journal`] | the button, the lamp, the log |
+//! | [`odometry`] | where the car believes it is, for the log |
 //! | [`clock`] | time, and the watchdog |
 //! | [`brain`] | a controller for whichever network and tanh a blob names, open to inspection |
 //! | [`closed_loop`], [`room`] | driving through a room of our own, as a digest |
@@ -43,6 +44,7 @@ pub mod fit;
 pub mod hardware;
 pub mod indicator;
 pub mod journal;
+pub mod odometry;
 #[cfg(all(target_os = "none", feature = "board-pico2"))]
 pub mod pico2;
 pub mod recorded;

@@ -110,7 +110,7 @@ fn it_starts_when_the_button_is_let_go_and_stops_in_the_period_of_the_next_press
     world.with(|outside| outside.pressed = true);
     step(&world, &mut car, [700; 5]);
     assert_eq!(world.pulses(), STOPPED);
-    assert_eq!(world.events(), [Event::Disarmed]);
+    assert!(matches!(world.events()[..], [Event::Disarmed { .. }]));
     assert_eq!(car.signal(), Signal::Disarmed);
 }
 
@@ -134,6 +134,60 @@ fn every_drive_begins_with_an_empty_memory() {
     let first = drive();
     assert!(first.windows(2).any(|pair| pair[0] != pair[1]), "the memory shows");
     assert_eq!(drive(), first);
+}
+
+/// Degrees and metres that a line of the log gives after these words.
+fn number_after(line: &str, words: &str) -> f64 {
+    let (_, rest) = line.split_once(words).unwrap_or_else(|| panic!("{line}: no {words}"));
+    let end = rest.find(|c: char| !"-0123456789.".contains(c)).unwrap_or(rest.len());
+    rest[..end].parse().unwrap_or_else(|_| panic!("{line}: no number after {words}"))
+}
+
+#[test]
+fn the_log_tells_where_the_driven_commands_have_led_since_arming() {
+    let world = World::default();
+    let region = good();
+    let mut car = world.boot(&region.0);
+    let blob = Blob::parse_prefix(&region.0).expect("a blob");
+    let network = blob.network::<Elman, 12, 1>().expect("an Elman network");
+    let wheelbase = f64::from(blob.header().wheelbase);
+    let reading = Reading::new([Some(Echo::Wall(0.7)); 5], 0, RANGE).expect("good");
+    for drive in 0..2 {
+        let mut core = Controller::new(network, Rational, blob.scaling());
+        let (mut x, mut y, mut heading, mut distance) = (0.0, 0.0, 0.0, 0.0);
+        arm(&world, &mut car, [700; 5]);
+        for _ in 0..100 {
+            let Command { steer, step } = core.decide(Ok(&reading));
+            let (steer, step) = (f64::from(steer.radians()), f64::from(step.metres()));
+            x += step * libm::cos(heading + steer);
+            y += step * libm::sin(heading + steer);
+            heading += step / wheelbase * libm::sin(steer);
+            distance += step;
+        }
+        for _ in 1..100 {
+            step(&world, &mut car, [700; 5]);
+        }
+        world.events();
+        world.with(|outside| outside.pressed = true);
+        step(&world, &mut car, [700; 5]);
+        world.with(|outside| outside.pressed = false);
+        let line = world.events()[0].to_string();
+        assert!(distance > 1.0, "drive {drive} goes somewhere");
+        for (words, exact, within) in [
+            ("disarmed: ", distance, 0.006),
+            ("believed at (", x, 0.02),
+            (", ", y, 0.02),
+            ("heading ", heading.to_degrees(), 3.0),
+        ] {
+            let rest = if words == ", " {
+                line.split_once("believed at (").expect("a place").1
+            } else {
+                &line
+            };
+            let found = number_after(rest, words);
+            assert!((found - exact).abs() <= within, "{line}: {words}{exact} expected");
+        }
+    }
 }
 
 #[test]
