@@ -31,6 +31,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     entry!("open", "open.toml"),
     entry!("obstacles", "obstacles.toml"),
     entry!("complex", "complex.toml"),
+    entry!("small-car", "small-car.toml"),
     entry!("depot", "worlds/depot.toml"),
     entry!("tb3_sandbox", "worlds/tb3_sandbox.toml"),
     entry!("barn_000", "worlds/barn_000.toml"),
