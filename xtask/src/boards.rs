@@ -1,5 +1,6 @@
 //! The boards: one row each, in the order of their folders under `firmware-example/boards`.
 
+use std::ops::Range;
 use std::path::Path;
 
 use crate::failure::Failure;
@@ -36,10 +37,30 @@ impl Program {
     }
 }
 
-/// Boards that no emulator stands in for. They are built by name only, `cargo xtask build <name>`:
-/// their hardware libraries take minutes to compile.
-pub(crate) const REAL: &[Program] =
-    &[Program { name: "pico2", triple: "thumbv8m.main-none-eabihf", cpu: "cortex-m33" }];
+/// A board that no emulator stands in for.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Real {
+    /// What to build for it.
+    pub(crate) program: Program,
+    /// How its boot loader takes files.
+    pub(crate) drive: Drive,
+}
+
+/// The drive that a boot loader shows, onto which UF2 files are dropped.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Drive {
+    /// UF2 family of the programs it starts.
+    pub(crate) family: u32,
+    /// The flash that is really there; the chip shows more addresses.
+    pub(crate) flash: Range<u32>,
+}
+
+/// Boards that no emulator stands in for: built and linted with the others, never run here.
+pub(crate) const REAL: &[Real] = &[Real {
+    program: Program { name: "pico2", triple: "thumbv8m.main-none-eabihf", cpu: "cortex-m33" },
+    // `rp2350-arm-s`: its boot ROM starts Arm programs of the secure world.
+    drive: Drive { family: 0xe48b_ff59, flash: 0x1000_0000..0x1040_0000 },
+}];
 
 /// The emulator that stands in for a board.
 #[derive(Debug, PartialEq, Eq)]
@@ -114,11 +135,40 @@ pub(crate) fn chosen(options: &Options) -> Result<Vec<&'static Board>, Failure> 
     }
 }
 
-/// The programs named by the operands, real boards included, or those of all emulated boards.
-pub(crate) fn chosen_programs(options: &Options) -> Result<Vec<Program>, Failure> {
-    let real = |name: &String| REAL.iter().find(|program| program.name == name).copied();
+/// Every program there is, those of real boards last.
+pub(crate) fn programs() -> impl Iterator<Item = Program> {
+    ALL.iter().map(Board::program).chain(REAL.iter().map(|board| board.program))
+}
+
+fn real(name: &str) -> Option<&'static Real> {
+    REAL.iter().find(|board| board.program.name == name)
+}
+
+/// The real boards named by the operands, or all of them.
+pub(crate) fn chosen_real(options: &Options) -> Result<Vec<&'static Real>, Failure> {
+    let known = || {
+        let names: Vec<&str> = REAL.iter().map(|board| board.program.name).collect();
+        names.join(", ")
+    };
     match options.operands.as_slice() {
-        [] => Ok(ALL.iter().map(Board::program).collect()),
+        [] => Ok(REAL.iter().collect()),
+        names => names
+            .iter()
+            .map(|name| {
+                real(name).ok_or_else(|| {
+                    let expected = known();
+                    Failure::usage(format!("no real board `{name}`; expected one of: {expected}"))
+                })
+            })
+            .collect(),
+    }
+}
+
+/// The programs named by the operands, or every one there is.
+pub(crate) fn chosen_programs(options: &Options) -> Result<Vec<Program>, Failure> {
+    let real = |name: &String| real(name).map(|board| board.program);
+    match options.operands.as_slice() {
+        [] => Ok(programs().collect()),
         names => names
             .iter()
             .map(|name| real(name).map_or_else(|| Ok(named(name)?.program()), Ok))
@@ -168,7 +218,7 @@ mod tests {
     /// Names of emulated and real boards, sorted.
     fn with_real() -> Vec<&'static str> {
         let mut names = names();
-        names.extend(REAL.iter().map(|program| program.name));
+        names.extend(REAL.iter().map(|board| board.program.name));
         names.sort_unstable();
         names
     }

@@ -45,15 +45,17 @@ fn findings(options: &Options) -> Vec<Finding> {
         finding("rustfmt", tools::component_version("cargo-fmt"), "rustup component add rustfmt"),
         finding("clippy", tools::component_version("cargo-clippy"), "rustup component add clippy"),
     ];
-    for board in boards::ALL {
-        let toolchain = Toolchain::find(options.targets, board.triple);
+    for program in boards::programs() {
+        let toolchain = Toolchain::find(options.targets, program.triple);
         let found = toolchain.as_ref().ok().and_then(|toolchain| toolchain.version());
         let fix = toolchain.err().map_or_else(String::new, |failure| failure.to_string());
         findings.push(finding(
-            &format!("compiler for {} ({})", board.name, board.triple),
+            &format!("compiler for {} ({})", program.name, program.triple),
             found,
             &fix,
         ));
+    }
+    for board in boards::ALL {
         let emulator = &board.emulator;
         findings.push(finding(
             &format!("emulator of {}", board.name),

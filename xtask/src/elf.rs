@@ -1,5 +1,5 @@
-//! The few fields of a 32-bit little-endian ELF file that tell how much memory a program takes, and
-//! where the linker put a name.
+//! The few fields of a 32-bit little-endian ELF file that tell what a program loads, how much memory it takes,
+//! and where the linker put a name.
 
 /// Bytes a program takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -10,6 +10,7 @@ pub(crate) struct Size {
     pub(crate) ram: u64,
 }
 
+const SEGMENT_LOAD: u32 = 1;
 const SECTION_SYMBOLS: u32 = 2;
 const SECTION_NOBITS: u32 = 8;
 const FLAG_WRITE: u32 = 1;
@@ -55,6 +56,34 @@ pub(crate) fn address(elf: &[u8], name: &str) -> Result<Option<u32>, &'static st
     Ok(None)
 }
 
+/// Bytes that a loader puts into memory before the program starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Segment<'a> {
+    /// Where they are stored: flash, also for variables that start-up code copies to RAM.
+    pub(crate) address: u32,
+    /// The bytes.
+    pub(crate) bytes: &'a [u8],
+}
+
+/// What is loaded from the file, in its order; memory that is only reserved is left out.
+pub(crate) fn segments(elf: &[u8]) -> Result<Vec<Segment<'_>>, &'static str> {
+    check_kind(elf)?;
+    let table = word(elf, 28).ok_or(CUT)? as usize;
+    let entry_size = half(elf, 42).ok_or(CUT)?;
+    let count = half(elf, 44).ok_or(CUT)?;
+    let mut segments = Vec::new();
+    for index in 0..count {
+        let field = |offset| word(elf, table + index * entry_size + offset).ok_or(CUT);
+        let (kind, address) = (field(0)?, field(12)?);
+        let (start, length) = (field(4)? as usize, field(16)? as usize);
+        if kind == SEGMENT_LOAD && length > 0 {
+            let bytes = elf.get(start..start + length).ok_or(CUT)?;
+            segments.push(Segment { address, bytes });
+        }
+    }
+    Ok(segments)
+}
+
 /// One row of the section table.
 struct Section {
     name: usize,
@@ -66,9 +95,7 @@ struct Section {
 }
 
 fn sections(elf: &[u8]) -> Result<Vec<Section>, &'static str> {
-    if !elf.starts_with(b"\x7fELF\x01\x01") {
-        return Err("not a 32-bit little-endian ELF file");
-    }
+    check_kind(elf)?;
     let table = word(elf, 32).ok_or(CUT)? as usize;
     let entry_size = half(elf, 46).ok_or(CUT)?;
     let count = half(elf, 48).ok_or(CUT)?;
@@ -85,6 +112,11 @@ fn sections(elf: &[u8]) -> Result<Vec<Section>, &'static str> {
             })
         })
         .collect()
+}
+
+fn check_kind(elf: &[u8]) -> Result<(), &'static str> {
+    let known = elf.starts_with(b"\x7fELF\x01\x01");
+    if known { Ok(()) } else { Err("not a 32-bit little-endian ELF file") }
 }
 
 fn word(bytes: &[u8], at: usize) -> Option<u32> {
@@ -139,6 +171,29 @@ mod tests {
         for length in 6..file.len() - 12 {
             assert!(address(&file[..length], "_weights_start").is_err(), "{length} bytes");
         }
+    }
+
+    #[test]
+    fn segments_lie_where_they_are_stored_and_reserved_memory_is_none() {
+        let mut file = elf(&[]);
+        let table = file.len() as u32;
+        file[28..32].copy_from_slice(&table.to_le_bytes());
+        file[42..44].copy_from_slice(&32_u16.to_le_bytes());
+        file[44..46].copy_from_slice(&3_u16.to_le_bytes());
+        // Type, file offset, address in RAM, address in flash, bytes in the file, bytes in memory, flags, alignment.
+        for header in [
+            [SEGMENT_LOAD, 1, 0x2000_0000, 0x1000_0100, 3, 3, 6, 4],
+            [SEGMENT_LOAD, 0, 0x2000_0100, 0x2000_0100, 0, 64, 6, 4],
+            [0x7000_0001, 0, 0, 0, 8, 8, 4, 4],
+        ] {
+            file.extend(header.iter().flat_map(|word: &u32| word.to_le_bytes()));
+        }
+        let expected = Segment { address: 0x1000_0100, bytes: b"ELF" };
+        assert_eq!(segments(&file), Ok(vec![expected]));
+        for length in 6..file.len() - 12 {
+            assert!(segments(&file[..length]).is_err(), "{length} bytes");
+        }
+        assert_eq!(segments(b"MZ"), Err("not a 32-bit little-endian ELF file"));
     }
 
     #[test]

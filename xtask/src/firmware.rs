@@ -22,14 +22,10 @@ pub(crate) fn build(board: &Board, options: &Options) -> Result<PathBuf, Failure
     build_program(&board.program(), options)
 }
 
-fn build_program(program: &Program, options: &Options) -> Result<PathBuf, Failure> {
-    let toolchain = if boards::REAL.contains(program) {
-        // `cargo xtask fetch` gets what the emulated boards need; this target comes with its first build.
-        Toolchain::fetch(options.targets, program.triple)?
-    } else {
-        Toolchain::find(options.targets, program.triple)?
-    };
-    let mut command = program_command("build", program, toolchain);
+/// Builds a program and returns its path.
+pub(crate) fn build_program(program: &Program, options: &Options) -> Result<PathBuf, Failure> {
+    let toolchain = Toolchain::find(options.targets, program.triple)?;
+    let mut command = command("build", program, toolchain);
     if let Some(sabotage) = &options.sabotage {
         command.args(["--features", &format!("sabotage-{sabotage}")]);
     }
@@ -45,11 +41,7 @@ fn build_program(program: &Program, options: &Options) -> Result<PathBuf, Failur
 }
 
 /// `cargo <verb>` for one board's program.
-pub(crate) fn command(verb: &str, board: &Board, toolchain: Toolchain) -> Command {
-    program_command(verb, &board.program(), toolchain)
-}
-
-fn program_command(verb: &str, program: &Program, toolchain: Toolchain) -> Command {
+pub(crate) fn command(verb: &str, program: &Program, toolchain: Toolchain) -> Command {
     let mut command = toolchain.cargo(verb, program.triple);
     // Here and not in `.cargo/config.toml`: two boards share an instruction set but not a processor.
     let flags = format!("target.{}.rustflags=[\"-Ctarget-cpu={}\"]", program.triple, program.cpu);

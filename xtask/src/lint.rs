@@ -30,9 +30,11 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
         "-D",
         "warnings",
     ]))?;
-    for board in boards::ALL {
-        let toolchain = Toolchain::find(options.targets, board.triple)?;
-        process::run(firmware::command("clippy", board, toolchain).args(["--", "-D", "warnings"]))?;
+    for program in boards::programs() {
+        let toolchain = Toolchain::find(options.targets, program.triple)?;
+        process::run(
+            firmware::command("clippy", &program, toolchain).args(["--", "-D", "warnings"]),
+        )?;
     }
     process::run(
         process::cargo()

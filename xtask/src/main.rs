@@ -23,6 +23,7 @@ mod size;
 mod targets;
 mod test;
 mod tools;
+mod uf2;
 
 use std::process::ExitCode;
 
@@ -67,6 +68,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[BOARD]… [--sabotage panic|fault|hang]",
         summary: "builds the boards and prints the path of each program",
         run: firmware::run,
+    },
+    Command {
+        name: "uf2",
+        arguments: "[BOARD]…",
+        summary: "builds a real board's program as a file for the drive of its boot loader, and prints its path",
+        run: uf2::run,
     },
     Command {
         name: "qemu",

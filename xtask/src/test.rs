@@ -57,8 +57,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
 
 /// Builds programs and log decoder up front, so that a test's time is the test's own.
 fn build_boards(options: &Options) -> Result<(), Failure> {
-    for board in boards::ALL {
-        firmware::build(board, options)?;
+    for program in boards::programs() {
+        firmware::build_program(&program, options)?;
     }
     process::run(&mut qemu::decoder("build"))
 }

@@ -14,8 +14,10 @@ pub(crate) fn fetch_all(options: &Options) -> Result<(), Failure> {
     for (component, program) in [("rustfmt", "cargo-fmt"), ("clippy", "cargo-clippy")] {
         fetch_component(component, program)?;
     }
+    for program in boards::programs() {
+        Toolchain::fetch(options.targets, program.triple)?;
+    }
     for board in boards::ALL {
-        Toolchain::fetch(options.targets, board.triple)?;
         fetch_emulator(board)?;
     }
     for (program, package, why) in TEST_TOOLS {
