@@ -3,15 +3,23 @@
 //! A [`Network`] borrows its weights: from a genome while training, from flash on the car.
 //! The genome's order is also the blob's: for each layer the matrix input by input (`w[input]
 //! [neuron]`), then its recurrent weights, then its biases. Input-major order lets a compiler
-//! work on all neurons of a layer at once without changing any neuron's order of addition.
+//! work on any number of a layer's neurons at once without changing any neuron's order of
+//! addition.
 //!
 //! The arithmetic contract: each neuron's sum starts from its bias, adds `weight · input`
 //! input by input, then `weight · previous output` neuron by neuron. Without biases the sum
 //! starts from `+0.0`.
 
+mod layer;
+mod recurrence;
+
+pub use recurrence::{Elman, Feedforward, Recurrence, SelfLoop};
+
 use crate::activation::Activation;
 use crate::lane::Lane;
 use core::fmt;
+use layer::Layer;
+use recurrence::{take_matrix, take_row};
 use serde::{Deserialize, Serialize};
 
 /// What a hidden neuron remembers of the step before; recorded in the weight blob.
@@ -91,115 +99,6 @@ impl fmt::Display for Topology {
         let Self { inputs, hidden, outputs, recurrence, biases } = self;
         let biases = if *biases { "biases" } else { "no biases" };
         write!(f, "{inputs}-{hidden}-{hidden}-{outputs} {recurrence}, {biases}")
-    }
-}
-
-/// A recurrence as a type, so that a device carries the code of its own kind only.
-pub trait Recurrence: Copy {
-    /// The same as a value.
-    const KIND: RecurrenceKind;
-
-    /// The recurrent weights of one layer of width `H`.
-    type Weights<'a, W: Copy + fmt::Debug + 'a, const H: usize>: Copy + fmt::Debug;
-
-    /// Takes one layer's recurrent weights off the front of the genome.
-    fn take<'a, W: Copy + fmt::Debug, const H: usize>(
-        genome: &mut &'a [W],
-    ) -> Option<Self::Weights<'a, W, H>>;
-
-    /// Adds the recurrent part to one layer's sums.
-    fn add<L: Lane + From<W>, W: Copy + fmt::Debug, const H: usize>(
-        sums: &mut [L; H],
-        weights: Self::Weights<'_, W, H>,
-        previous: &[L; H],
-    );
-}
-
-/// [`RecurrenceKind::Feedforward`] as a type.
-#[derive(Clone, Copy, Debug)]
-pub struct Feedforward;
-
-/// [`RecurrenceKind::SelfLoop`] as a type.
-#[derive(Clone, Copy, Debug)]
-pub struct SelfLoop;
-
-/// [`RecurrenceKind::Elman`] as a type.
-#[derive(Clone, Copy, Debug)]
-pub struct Elman;
-
-impl Recurrence for Feedforward {
-    const KIND: RecurrenceKind = RecurrenceKind::Feedforward;
-    type Weights<'a, W: Copy + fmt::Debug + 'a, const H: usize> = ();
-
-    fn take<W: Copy + fmt::Debug, const H: usize>(_: &mut &[W]) -> Option<()> {
-        Some(())
-    }
-
-    #[inline(always)]
-    fn add<L: Lane + From<W>, W: Copy + fmt::Debug, const H: usize>(
-        _: &mut [L; H],
-        (): (),
-        _: &[L; H],
-    ) {
-    }
-}
-
-impl Recurrence for SelfLoop {
-    const KIND: RecurrenceKind = RecurrenceKind::SelfLoop;
-    type Weights<'a, W: Copy + fmt::Debug + 'a, const H: usize> = &'a [W; H];
-
-    fn take<'a, W: Copy + fmt::Debug, const H: usize>(genome: &mut &'a [W]) -> Option<&'a [W; H]> {
-        take_row(genome)
-    }
-
-    #[inline(always)]
-    fn add<L: Lane + From<W>, W: Copy + fmt::Debug, const H: usize>(
-        sums: &mut [L; H],
-        weights: &[W; H],
-        previous: &[L; H],
-    ) {
-        for ((sum, weight), output) in sums.iter_mut().zip(weights).zip(previous) {
-            *sum = *sum + L::from(*weight) * *output;
-        }
-    }
-}
-
-impl Recurrence for Elman {
-    const KIND: RecurrenceKind = RecurrenceKind::Elman;
-    type Weights<'a, W: Copy + fmt::Debug + 'a, const H: usize> = &'a [[W; H]; H];
-
-    fn take<'a, W: Copy + fmt::Debug, const H: usize>(
-        genome: &mut &'a [W],
-    ) -> Option<&'a [[W; H]; H]> {
-        take_matrix(genome)
-    }
-
-    #[inline(always)]
-    fn add<L: Lane + From<W>, W: Copy + fmt::Debug, const H: usize>(
-        sums: &mut [L; H],
-        weights: &[[W; H]; H],
-        previous: &[L; H],
-    ) {
-        add_products(sums, weights, previous);
-    }
-}
-
-/// One layer's weights, borrowed.
-#[derive(Clone, Copy, Debug)]
-struct Layer<'a, W: Copy, const IN: usize, const OUT: usize> {
-    weights: &'a [[W; OUT]; IN],
-    bias: Option<&'a [W; OUT]>,
-}
-
-impl<W: Copy, const IN: usize, const OUT: usize> Layer<'_, W, IN, OUT> {
-    #[inline(always)]
-    fn sums<L: Lane + From<W>>(&self, input: &[L; IN]) -> [L; OUT] {
-        let mut sums = match self.bias {
-            Some(bias) => bias.map(L::from),
-            None => [L::from(0.0f32); OUT],
-        };
-        add_products(&mut sums, self.weights, input);
-        sums
     }
 }
 
@@ -313,21 +212,28 @@ impl<'a, R: Recurrence, W: Copy + fmt::Debug, const I: usize, const H: usize, co
         state: &mut State<L, H>,
         input: &[L; I],
     ) -> [L; O] {
-        let mut sums = self.first.sums(input);
-        R::add(&mut sums, self.first_memory, &state.first);
-        activation.apply(&mut sums);
-        state.first = sums;
+        self.run::<H, L>(activation, state, input)
+    }
 
-        let mut sums = self.second.sums(&state.first);
-        R::add(&mut sums, self.second_memory, &state.second);
-        activation.apply(&mut sums);
-        state.second = sums;
-
-        let mut output = self.output.sums(&state.second);
-        activation.apply(&mut output);
+    /// The step, `N` neurons of a hidden layer at a time; no bit depends on `N`.
+    #[inline(always)]
+    fn run<const N: usize, L: Lane + From<W>>(
+        &self,
+        activation: impl Activation,
+        State { first, second }: &mut State<L, H>,
+        input: &[L; I],
+    ) -> [L; O] {
+        self.first.run::<N, R, L>(self.first_memory, activation, input, first);
+        self.second.run::<N, R, L>(self.second_memory, activation, first, second);
+        let mut output = [L::from(0.0); O];
+        self.output.run::<O, Feedforward, L>((), activation, second, &mut output);
         output
     }
 }
+
+/// Hidden neurons that a microcontroller works on at a time. More do not fit the 32 registers of a Cortex-M4F
+/// beside inputs, memory and the constants of the tanh; fewer load the inputs more often.
+const ON_A_BOARD: usize = 3;
 
 impl<R: Recurrence, const I: usize, const H: usize, const O: usize> Network<'_, R, f32, I, H, O> {
     /// [`Self::step`] for one robot, compiled once: a device's self-test then runs the very
@@ -339,35 +245,20 @@ impl<R: Recurrence, const I: usize, const H: usize, const O: usize> Network<'_, 
         state: &mut State<f32, H>,
         input: &[f32; I],
     ) -> [f32; O] {
-        self.step(activation, state, input)
-    }
-}
-
-#[inline(always)]
-fn add_products<L: Lane + From<W>, W: Copy, const IN: usize, const OUT: usize>(
-    sums: &mut [L; OUT],
-    weights: &[[W; OUT]; IN],
-    input: &[L; IN],
-) {
-    for (row, value) in weights.iter().zip(input) {
-        for (sum, weight) in sums.iter_mut().zip(row) {
-            *sum = *sum + L::from(*weight) * *value;
+        // No group of neurons then has to ask whether there are biases.
+        let with_biases = Self {
+            first: self.first.with_bias(),
+            second: self.second.with_bias(),
+            output: self.output.with_bias(),
+            ..*self
+        };
+        // A host has vector registers for a whole layer.
+        if cfg!(target_os = "none") {
+            with_biases.run::<ON_A_BOARD, f32>(activation, state, input)
+        } else {
+            with_biases.run::<H, f32>(activation, state, input)
         }
     }
-}
-
-fn take_row<'a, W, const N: usize>(genome: &mut &'a [W]) -> Option<&'a [W; N]> {
-    let (row, rest) = genome.split_first_chunk()?;
-    *genome = rest;
-    Some(row)
-}
-
-fn take_matrix<'a, W, const IN: usize, const OUT: usize>(
-    genome: &mut &'a [W],
-) -> Option<&'a [[W; OUT]; IN]> {
-    let (matrix, rest) = genome.split_at_checked(IN * OUT)?;
-    *genome = rest;
-    matrix.as_chunks().0.try_into().ok()
 }
 
 fn take_bias<'a, W, const N: usize>(
@@ -375,4 +266,44 @@ fn take_bias<'a, W, const N: usize>(
     biases: bool,
 ) -> Option<Option<&'a [W; N]>> {
     if biases { take_row(genome).map(Some) } else { Some(None) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::activation::Rational;
+
+    /// A drive of 20 steps, `N` neurons of a hidden layer at a time, as bits.
+    fn drive<const N: usize, R: Recurrence>(biases: bool) -> [[u32; 26]; 20] {
+        let mut genome = [0.0; 600];
+        for (index, weight) in genome.iter_mut().enumerate() {
+            *weight = (index * 7919 % 1009) as f32 / 504.5 - 1.0;
+        }
+        let genome = &genome[..Network::<R, f32, 7, 12, 2>::topology(biases).weights()];
+        let network = Network::<R, f32, 7, 12, 2>::new(genome, biases).unwrap();
+        let mut state = State::reset();
+        core::array::from_fn(|step| {
+            let input = core::array::from_fn(|index| ((step * 7 + index) * 31 % 53) as f32 / 52.0);
+            let outputs = network.run::<N, f32>(Rational, &mut state, &input);
+            let mut values = state.first.iter().chain(&state.second).chain(&outputs);
+            core::array::from_fn(|_| values.next().unwrap().to_bits())
+        })
+    }
+
+    fn groups_of_any_size_agree<R: Recurrence>() {
+        for biases in [false, true] {
+            let whole = drive::<12, R>(biases);
+            assert_eq!(drive::<ON_A_BOARD, R>(biases), whole);
+            assert_eq!(drive::<1, R>(biases), whole);
+            // Leaves two neurons over, which are worked on alone.
+            assert_eq!(drive::<5, R>(biases), whole);
+        }
+    }
+
+    #[test]
+    fn no_bit_depends_on_how_many_neurons_are_worked_on_at_a_time() {
+        groups_of_any_size_agree::<Feedforward>();
+        groups_of_any_size_agree::<SelfLoop>();
+        groups_of_any_size_agree::<Elman>();
+    }
 }

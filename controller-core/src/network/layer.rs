@@ -1,0 +1,104 @@
+//! One layer: sums of weighted inputs, passed through the tanh.
+//!
+//! Neurons are worked on in groups, each from its biases to its outputs, so that the sums of a group
+//! never leave the registers. A neuron's own order of additions is the same in a group of any size.
+
+use super::Recurrence;
+use crate::activation::Activation;
+use crate::lane::Lane;
+use core::fmt;
+
+/// One layer's weights, borrowed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layer<'a, W: Copy, const IN: usize, const OUT: usize> {
+    pub(super) weights: &'a [[W; OUT]; IN],
+    pub(super) bias: Option<&'a [W; OUT]>,
+}
+
+impl<const IN: usize, const OUT: usize> Layer<'_, f32, IN, OUT> {
+    /// The same with biases of `+0.0` where there are none: what a sum without bias starts from.
+    #[inline(always)]
+    pub(super) fn with_bias(self) -> Self {
+        Self { bias: Some(self.bias.unwrap_or(const { &[0.0; OUT] })), ..self }
+    }
+}
+
+impl<W: Copy + fmt::Debug, const IN: usize, const OUT: usize> Layer<'_, W, IN, OUT> {
+    /// Replaces the layer's previous outputs by new ones, `N` neurons at a time.
+    #[inline(always)]
+    pub(super) fn run<const N: usize, R: Recurrence, L: Lane + From<W>>(
+        &self,
+        memory: R::Weights<'_, W, OUT>,
+        activation: impl Activation,
+        input: &[L; IN],
+        outputs: &mut [L; OUT],
+    ) {
+        let previous = *outputs;
+        let step = |first, own: &_| {
+            self.group::<N, R, L>(first, memory, activation, input, own, &previous)
+        };
+        let (groups, rest) = outputs.as_chunks_mut::<N>();
+        let grouped = N * groups.len();
+        for (index, group) in groups.iter_mut().enumerate() {
+            *group = step(N * index, group);
+        }
+        let step = |first, own: &_| {
+            self.group::<1, R, L>(first, memory, activation, input, own, &previous)
+        };
+        for (index, output) in rest.iter_mut().enumerate() {
+            [*output] = step(grouped + index, &[*output]);
+        }
+    }
+
+    /// New outputs of the `N` neurons from `first` on, whose previous ones are `own`.
+    #[inline(always)]
+    fn group<const N: usize, R: Recurrence, L: Lane + From<W>>(
+        &self,
+        first: usize,
+        memory: R::Weights<'_, W, OUT>,
+        activation: impl Activation,
+        input: &[L; IN],
+        own: &[L; N],
+        previous: &[L; OUT],
+    ) -> [L; N] {
+        let mut sums = match self.bias.and_then(|bias| group(bias, first)) {
+            Some(bias) => <[W; N]>::map(*bias, L::from),
+            None => [L::from(0.0f32); N],
+        };
+        add_products(&mut sums, first, self.weights, input);
+        R::add(&mut sums, first, memory, own, previous);
+        activation.apply(&mut sums);
+        sums
+    }
+}
+
+/// Adds `weight · input`, input by input, to the sums of the `N` neurons from `first` on.
+#[inline(always)]
+pub(super) fn add_products<
+    L: Lane + From<W>,
+    W: Copy,
+    const IN: usize,
+    const OUT: usize,
+    const N: usize,
+>(
+    sums: &mut [L; N],
+    first: usize,
+    weights: &[[W; OUT]; IN],
+    input: &[L; IN],
+) {
+    for (row, value) in weights.iter().zip(input) {
+        let Some(row) = group::<W, OUT, N>(row, first) else { continue };
+        for (sum, weight) in sums.iter_mut().zip(row) {
+            *sum = *sum + L::from(*weight) * *value;
+        }
+    }
+}
+
+/// `N` of a layer's values from `first` on; callers stay within the layer.
+#[inline(always)]
+pub(super) fn group<T, const ALL: usize, const N: usize>(
+    all: &[T; ALL],
+    first: usize,
+) -> Option<&[T; N]> {
+    all.get(first..)?.first_chunk()
+}
