@@ -77,7 +77,7 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "qemu",
-        arguments: "ELF [--board BOARD] [--weights BLOB] [--timeout SECONDS]",
+        arguments: "ELF [--board BOARD] [--weights BLOB] [--icount SHIFT] [--timeout SECONDS]",
         summary: "runs a board's program in QEMU, decodes its log, passes its exit code on",
         run: qemu::run,
     },

@@ -49,12 +49,15 @@ pub(crate) struct Options {
     pub(crate) sabotage: Option<String>,
     /// `--weights`: the blob in the board's flash; without it that flash is erased.
     pub(crate) weights: Option<PathBuf>,
+    /// `--icount`: 2 to the power of this is how many nanoseconds an instruction takes on the board's
+    /// clock; without it that clock is this machine's.
+    pub(crate) icount: Option<u8>,
     /// `--timeout`: wall-clock time a board may take, 60 s unless said otherwise.
     pub(crate) timeout: Duration,
 }
 
 /// Every option; each takes a value.
-const VALUED: [&str; 5] = ["targets", "board", "sabotage", "weights", "timeout"];
+const VALUED: [&str; 6] = ["targets", "board", "sabotage", "weights", "icount", "timeout"];
 
 impl Options {
     /// Reads the words after `cargo xtask`.
@@ -71,6 +74,7 @@ impl Options {
             board: None,
             sabotage: None,
             weights: None,
+            icount: None,
             timeout,
         };
         let mut words = arguments.into_iter();
@@ -105,6 +109,12 @@ impl Options {
             "targets" => self.targets = TargetSource::from_name(&value, "--targets")?,
             "board" => self.board = Some(value),
             "weights" => self.weights = Some(value.into()),
+            "icount" => {
+                let shift = value.parse().ok().filter(|shift| *shift <= 10);
+                self.icount = Some(shift.ok_or_else(|| {
+                    Failure::usage(format!("--icount: found `{value}`, expected 0 to 10"))
+                })?);
+            }
             "sabotage" => match value.as_str() {
                 "panic" | "fault" | "hang" => self.sabotage = Some(value),
                 _ => {
@@ -151,7 +161,7 @@ mod tests {
         let message = |line| parse(line).expect_err(line).to_string();
         assert_eq!(
             message("test --target x"),
-            "no option `--target`; expected one of: --targets, --board, --sabotage, --weights, --timeout"
+            "no option `--target`; expected one of: --targets, --board, --sabotage, --weights, --icount, --timeout"
         );
         assert_eq!(
             message("test --targets brew"),
@@ -161,6 +171,7 @@ mod tests {
             message("qemu a --timeout 0"),
             "--timeout: found `0`, expected 1 to 86400 seconds"
         );
+        assert_eq!(message("qemu a --icount 11"), "--icount: found `11`, expected 0 to 10");
         assert_eq!(message("qemu a --board"), "--board needs a value");
     }
 }

@@ -39,7 +39,7 @@ fn emulate(
     flash: Option<&str>,
     options: &Options,
 ) -> Result<(), Failure> {
-    emulate::run(board, elf, flash, options.timeout)
+    emulate::run(board, elf, flash, options)
 }
 
 /// Hands over to an xtask built with the log decoder; this one goes without, to be quick to build.
@@ -58,6 +58,9 @@ fn emulate(
         .arg(absolute(elf));
     if let Some(weights) = &options.weights {
         command.arg("--weights").arg(absolute(weights));
+    }
+    if let Some(shift) = options.icount {
+        command.args(["--icount", &shift.to_string()]);
     }
     let status = command
         .status()

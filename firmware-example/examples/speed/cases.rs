@@ -9,7 +9,7 @@ use controller_core::network::{Network, Recurrence, State};
 use controller_core::observation::{BEAMS, Echo, INPUTS, Reading};
 use core::fmt::Display;
 use core::hint::black_box;
-use firmware_example::any_controller::{HIDDEN, OUTPUTS};
+use firmware_example::brain::{HIDDEN, OUTPUTS};
 use firmware_example::recorded;
 
 use crate::counter::Counter;
@@ -46,8 +46,7 @@ fn step_and_control<'a, R: Recurrence, A: Activation>(
 ) -> Result<(), &'static str> {
     let functions: [Step<'a, R, A>; 2] = [Net::step_alone, |_, _, _, _| [0.0]];
     let [step, empty] = black_box(functions);
-    let (network, mut state, mut other) =
-        black_box((network, Memory::reset(), Memory::reset()));
+    let (network, mut state, mut other) = black_box((network, Memory::reset(), Memory::reset()));
     let mut inputs = Inputs::new();
     let found = measure(
         counter,

@@ -9,21 +9,22 @@ use std::time::{Duration, Instant};
 use super::decode::Log;
 use crate::boards::Board;
 use crate::failure::Failure;
+use crate::options::Options;
 use crate::process;
 
-/// Runs the program for at most `timeout` and ends as it ended.
+/// Runs the program for at most `--timeout`, on a clock as `--icount` says, and ends as it ended.
 pub(super) fn run(
     board: &Board,
     elf: &Path,
     flash: Option<&str>,
-    timeout: Duration,
+    &Options { timeout, icount, .. }: &Options,
 ) -> Result<(), Failure> {
     let bytes = std::fs::read(elf)
         .map_err(|error| Failure::usage(format!("cannot read {}: {error}", elf.display())))?;
     let log = Log::of(&bytes).map_err(|error| {
         Failure::failed(format!("{}: its log cannot be decoded: {error:#}", elf.display()))
     })?;
-    let mut child = start(board, elf, flash)?;
+    let mut child = start(board, elf, flash, icount)?;
     let ended = follow(&mut child, &log, Instant::now() + timeout)?;
     match ended.and_then(|status| status.code()) {
         Some(0) => Ok(()),
@@ -44,7 +45,13 @@ pub(super) fn run(
     }
 }
 
-fn start(board: &Board, elf: &Path, flash: Option<&str>) -> Result<Child, Failure> {
+fn start(
+    board: &Board,
+    elf: &Path,
+    flash: Option<&str>,
+    icount: Option<u8>,
+) -> Result<Child, Failure> {
+    let clock = icount.map(|shift| format!("shift={shift},align=off"));
     Command::new(board.emulator.program)
         .args([
             "-machine",
@@ -57,6 +64,7 @@ fn start(board: &Board, elf: &Path, flash: Option<&str>) -> Result<Child, Failur
         ])
         .args(board.emulator.options)
         .args(flash.into_iter().flat_map(|loader| ["-device", loader]))
+        .args(clock.iter().flat_map(|clock| ["-icount", clock]))
         .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
         .arg(elf)
         .stdin(Stdio::null())
