@@ -1,4 +1,4 @@
-//! Gives the linker the memory map of the chosen board; does nothing on a host.
+//! Gives the linker the memory map of the chosen board, and the log its level.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -7,6 +7,7 @@ use std::{env, fs};
 const FEATURE: &str = "CARGO_FEATURE_BOARD_";
 
 fn main() {
+    log_level();
     println!("cargo::rerun-if-changed=boards");
     let chosen: Vec<String> = env::vars()
         .filter_map(|(name, _)| Some(name.strip_prefix(FEATURE)?.to_lowercase().replace('_', "-")))
@@ -23,6 +24,15 @@ fn main() {
     };
     if let Err(message) = result {
         println!("cargo::error={message}");
+    }
+}
+
+/// Without a level defmt prints errors only, and a healthy board looks dead. Set here it holds for every way
+/// to call cargo, from wherever; `DEFMT_LOG` in the environment says otherwise.
+fn log_level() {
+    println!("cargo::rerun-if-env-changed=DEFMT_LOG");
+    if env::var_os("DEFMT_LOG").is_none() {
+        println!("cargo::rustc-env=DEFMT_LOG=info");
     }
 }
 
