@@ -8,6 +8,7 @@
 mod architecture;
 mod commands;
 mod console;
+mod lamp;
 mod links;
 mod pages;
 mod promises;

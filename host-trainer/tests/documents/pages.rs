@@ -17,6 +17,7 @@ pub(crate) fn all() -> Vec<String> {
         "controller-core",
         "controller-core/docs",
         "firmware-example",
+        "firmware-example/boards/pico2",
         "host-trainer",
         "scenarios",
     ] {
