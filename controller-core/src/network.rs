@@ -212,12 +212,13 @@ impl<'a, R: Recurrence, W: Copy + fmt::Debug, const I: usize, const H: usize, co
         state: &mut State<L, H>,
         input: &[L; I],
     ) -> [L; O] {
-        self.run::<H, L>(activation, state, input)
+        self.step_by::<H, L>(activation, state, input)
     }
 
-    /// The step, `N` neurons of a hidden layer at a time; no bit depends on `N`.
+    /// [`Self::step`], `N` neurons of a hidden layer at a time, each from its bias to its output:
+    /// as many as the machine's registers hold the sums of. No bit depends on it.
     #[inline(always)]
-    fn run<const N: usize, L: Lane + From<W>>(
+    pub fn step_by<const N: usize, L: Lane + From<W>>(
         &self,
         activation: impl Activation,
         State { first, second }: &mut State<L, H>,
@@ -254,9 +255,9 @@ impl<R: Recurrence, const I: usize, const H: usize, const O: usize> Network<'_, 
         };
         // A host has vector registers for a whole layer.
         if cfg!(target_os = "none") {
-            with_biases.run::<ON_A_BOARD, f32>(activation, state, input)
+            with_biases.step_by::<ON_A_BOARD, f32>(activation, state, input)
         } else {
-            with_biases.run::<H, f32>(activation, state, input)
+            with_biases.step_by::<H, f32>(activation, state, input)
         }
     }
 }
@@ -284,7 +285,7 @@ mod tests {
         let mut state = State::reset();
         core::array::from_fn(|step| {
             let input = core::array::from_fn(|index| ((step * 7 + index) * 31 % 53) as f32 / 52.0);
-            let outputs = network.run::<N, f32>(Rational, &mut state, &input);
+            let outputs = network.step_by::<N, f32>(Rational, &mut state, &input);
             let mut values = state.first.iter().chain(&state.second).chain(&outputs);
             core::array::from_fn(|_| values.next().unwrap().to_bits())
         })

@@ -34,19 +34,16 @@ impl<W: Copy + fmt::Debug, const IN: usize, const OUT: usize> Layer<'_, W, IN, O
         outputs: &mut [L; OUT],
     ) {
         let previous = *outputs;
-        let step = |first, own: &_| {
-            self.group::<N, R, L>(first, memory, activation, input, own, &previous)
-        };
         let (groups, rest) = outputs.as_chunks_mut::<N>();
-        let grouped = N * groups.len();
-        for (index, group) in groups.iter_mut().enumerate() {
-            *group = step(N * index, group);
+        let mut first = 0;
+        for group in groups {
+            *group = self.group::<N, R, L>(first, memory, activation, input, group, &previous);
+            first += N;
         }
-        let step = |first, own: &_| {
-            self.group::<1, R, L>(first, memory, activation, input, own, &previous)
-        };
-        for (index, output) in rest.iter_mut().enumerate() {
-            [*output] = step(grouped + index, &[*output]);
+        for output in rest {
+            [*output] =
+                self.group::<1, R, L>(first, memory, activation, input, &[*output], &previous);
+            first += 1;
         }
     }
 
