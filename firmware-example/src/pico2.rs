@@ -18,7 +18,6 @@ use embassy_rp::gpio::{Input, Output, OutputOpenDrain};
 use embassy_rp::i2c::{Blocking, I2c};
 use embassy_rp::peripherals::{I2C0, PIN_16, PIN_18, PWM_SLICE0, PWM_SLICE1, WATCHDOG};
 use embassy_rp::pwm::{self, Pwm};
-use embassy_rp::watchdog::ResetReason;
 use embassy_time::{Delay, Duration, Instant};
 
 defmt::timestamp!("{=u64:us}", Instant::now().as_micros());
@@ -28,6 +27,14 @@ pub const CALIBRATION: Calibration = Calibration::UNFITTED;
 
 /// Booting may take this long: five sensors calibrate themselves.
 const BOOT: Duration = Duration::from_secs(8);
+
+/// The scratch register that outlives a reset and tells the next boot what it was for; 4 to 7 are the boot
+/// loader's.
+const MARK: usize = 0;
+/// In [`MARK`] from boot on.
+const RUNNING: u32 = 0x6461_7274;
+/// In [`MARK`] when the program itself asks for the reset.
+const FAILED: u32 = 0x6661_696c;
 
 /// The types of this car's parts.
 #[derive(Clone, Copy, Debug)]
@@ -94,11 +101,13 @@ impl Dog {
     /// Starts the watchdog with time enough to boot, and says so if it was what reset the chip.
     pub fn guarding_boot(peripheral: Peri<'static, WATCHDOG>) -> Self {
         let mut watchdog = embassy_rp::watchdog::Watchdog::new(peripheral);
-        match watchdog.reset_reason() {
-            Some(ResetReason::TimedOut) => defmt::warn!("the watchdog reset the board"),
-            Some(ResetReason::Forced) => defmt::warn!("the program failed and reset the board"),
-            None => {}
+        // The boot loader ends a download with the same reset, and leaves no mark of ours.
+        match (watchdog.reset_reason(), watchdog.get_scratch(MARK)) {
+            (Some(_), FAILED) => defmt::warn!("the program failed and reset the board"),
+            (Some(_), RUNNING) => defmt::warn!("the watchdog reset the board"),
+            _ => {}
         }
+        watchdog.set_scratch(MARK, RUNNING);
         watchdog.start(BOOT);
         Self { watchdog, timeout: BOOT }
     }

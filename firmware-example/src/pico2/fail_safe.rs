@@ -1,6 +1,6 @@
 //! What the car does when its program fails: it stops, says why, and starts anew.
 
-use super::{CALIBRATION, motor, servo};
+use super::{CALIBRATION, FAILED, MARK, motor, servo};
 use crate::app;
 use core::sync::atomic::{AtomicBool, Ordering};
 use embassy_rp::clocks::clk_sys_freq;
@@ -41,6 +41,7 @@ fn stop() {
 fn reset() -> ! {
     // SAFETY: whoever owned it never runs again.
     let mut watchdog = Watchdog::new(unsafe { WATCHDOG::steal() });
+    watchdog.set_scratch(MARK, FAILED);
     loop {
         watchdog.trigger_reset();
     }

@@ -113,7 +113,7 @@ impl Board {
 ///
 /// A copy of the numbers in the driving program's calibration (`firmware-example/src/calibration.rs`,
 /// `brain.rs` and `fit.rs`), which decide: this crate only says in advance what the car
-/// would refuse. Change both together.
+/// would refuse. A test holds the two together (`tests/tests/shipped_car.rs`).
 #[derive(Debug, PartialEq)]
 pub struct ShippedCar {
     /// Neurons in each hidden layer of the networks it has code for.
