@@ -16,7 +16,6 @@ use serde::{Deserialize, Serialize};
 
 /// Which tanh a set of weights was trained with; recorded in the weight blob.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[serde(rename_all = "kebab-case")]
 pub enum ActivationKind {
     /// [`Rational`].
@@ -141,12 +140,8 @@ impl Activation for ActivationKind {
     }
 }
 
-impl core::fmt::Display for ActivationKind {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(match self {
-            Self::Rational => "rational",
-            Self::Libm => "libm",
-            Self::Micromath => "micromath",
-        })
-    }
-}
+crate::sentences! { ActivationKind {
+    Self::Rational => "rational";
+    Self::Libm => "libm";
+    Self::Micromath => "micromath";
+} }

@@ -58,7 +58,6 @@ pub struct Aligned<T: ?Sized>(pub T);
 
 /// Why bytes are not a blob that this program can use.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum BlobError {
     /// There are fewer bytes than the blob says or a header needs.
     TooShort {
@@ -126,45 +125,28 @@ impl From<HeaderError> for BlobError {
     }
 }
 
-impl fmt::Display for BlobError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TooShort { found, expected } => {
-                write!(f, "{found} bytes, a blob of {expected} bytes expected")
-            }
-            Self::TooLong { found, expected } => {
-                write!(f, "{found} bytes, the blob ends after {expected}")
-            }
-            Self::Magic { found: [0xff, 0xff, 0xff, 0xff, ..] } => {
-                write!(f, "no blob here: the flash is erased")
-            }
-            Self::Magic { .. } => write!(f, "no blob here: it does not start with \"EVOSTEER\""),
-            Self::Version { found, expected } => {
-                write!(f, "blob format version {found}, this program reads version {expected}")
-            }
-            Self::Unaligned => write!(f, "the blob does not start at a multiple of 4 bytes"),
-            Self::Length { found, expected } => {
-                write!(f, "the header says {found} bytes, its topology gives {expected}")
-            }
-            Self::Check { found, expected } => {
-                write!(f, "damaged: check {found:016x} stored, {expected:016x} computed")
-            }
-            Self::Header(error) => error.fmt(f),
-            Self::Weight { index, value } => {
-                write!(f, "weight {index} is {value}, finite and within ±1e6 expected")
-            }
-            Self::SelfTestValue { index, value } => {
-                write!(f, "self-test word {index} is {value}, a number within ±1 expected")
-            }
-        }
-    }
-}
+crate::sentences! { BlobError {
+    Self::TooShort { found, expected } => "{} bytes, a blob of {} bytes expected", found, expected;
+    Self::TooLong { found, expected } => "{} bytes, the blob ends after {}", found, expected;
+    Self::Magic { found: [0xff, 0xff, 0xff, 0xff, ..] } => "no blob here: the flash is erased";
+    Self::Magic { .. } => "no blob here: it does not start with \"EVOSTEER\"";
+    Self::Version { found, expected } =>
+        "blob format version {}, this program reads version {}", found, expected;
+    Self::Unaligned => "the blob does not start at a multiple of 4 bytes";
+    Self::Length { found, expected } =>
+        "the header says {} bytes, its topology gives {}", found, expected;
+    Self::Check { found, expected } =>
+        "damaged: check {:016x} stored, {:016x} computed", found, expected;
+    Self::Header(error) => "{}", error;
+    Self::Weight { index, value } => "weight {} is {}, finite and within ±1e6 expected", index, value;
+    Self::SelfTestValue { index, value } =>
+        "self-test word {} is {}, a number within ±1 expected", index, value;
+} }
 
 impl core::error::Error for BlobError {}
 
 /// The blob holds another network than the program was built for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WrongTopology {
     /// The blob's.
     pub found: Topology,
@@ -172,11 +154,9 @@ pub struct WrongTopology {
     pub expected: Topology,
 }
 
-impl fmt::Display for WrongTopology {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the blob is {}, this program needs {}", self.found, self.expected)
-    }
-}
+crate::sentences! { WrongTopology {
+    Self { found, expected } => "the blob is {}, this program needs {}", found, expected;
+} }
 
 impl core::error::Error for WrongTopology {}
 

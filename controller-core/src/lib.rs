@@ -48,5 +48,6 @@ pub mod motion;
 pub mod network;
 pub mod observation;
 pub mod recording;
+mod sentences;
 pub mod trig;
 pub mod units;

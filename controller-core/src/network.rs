@@ -24,7 +24,6 @@ use serde::{Deserialize, Serialize};
 
 /// What a hidden neuron remembers of the step before; recorded in the weight blob.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[serde(rename_all = "kebab-case")]
 pub enum RecurrenceKind {
     /// Nothing.
@@ -48,19 +47,14 @@ impl RecurrenceKind {
     }
 }
 
-impl fmt::Display for RecurrenceKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Feedforward => "feedforward",
-            Self::SelfLoop => "self",
-            Self::Elman => "elman",
-        })
-    }
-}
+crate::sentences! { RecurrenceKind {
+    Self::Feedforward => "feedforward";
+    Self::SelfLoop => "self";
+    Self::Elman => "elman";
+} }
 
 /// Sizes and kind of a network, as numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Topology {
     /// Inputs.
     pub inputs: u8,
@@ -94,13 +88,12 @@ impl Topology {
     }
 }
 
-impl fmt::Display for Topology {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { inputs, hidden, outputs, recurrence, biases } = self;
-        let biases = if *biases { "biases" } else { "no biases" };
-        write!(f, "{inputs}-{hidden}-{hidden}-{outputs} {recurrence}, {biases}")
-    }
-}
+crate::sentences! { Topology {
+    Self { inputs, hidden, outputs, recurrence, biases: true } =>
+        "{}-{}-{}-{} {}, biases", inputs, hidden, hidden, outputs, recurrence;
+    Self { inputs, hidden, outputs, recurrence, biases: false } =>
+        "{}-{}-{}-{} {}, no biases", inputs, hidden, hidden, outputs, recurrence;
+} }
 
 /// Outputs of both hidden layers: the memory of a recurrent network, and the place to look
 /// for the first difference between two machines.

@@ -5,7 +5,6 @@
 //! recorded in the weight blob and implemented here only.
 
 use crate::lane::Lane;
-use core::fmt;
 use serde::{Deserialize, Serialize};
 
 /// Beams of the sensor.
@@ -43,7 +42,6 @@ pub enum Echo {
 
 /// Why a reading cannot be used. The car stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ReadingError {
     /// A beam did not answer.
     Missing {
@@ -64,19 +62,12 @@ pub enum ReadingError {
     },
 }
 
-impl fmt::Display for ReadingError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Missing { beam } => write!(f, "beam {beam} did not answer"),
-            Self::OutOfRange { beam, distance } => {
-                write!(f, "beam {beam} reported {distance} m, outside its range")
-            }
-            Self::Stale { age } => {
-                write!(f, "the reading is {age} periods old, {STALE_AFTER} are allowed")
-            }
-        }
-    }
-}
+crate::sentences! { ReadingError {
+    Self::Missing { beam } => "beam {} did not answer", beam;
+    Self::OutOfRange { beam, distance } =>
+        "beam {} reported {} m, outside its range", beam, distance;
+    Self::Stale { age } => "the reading is {} periods old, {} are allowed", age, STALE_AFTER;
+} }
 
 impl core::error::Error for ReadingError {}
 

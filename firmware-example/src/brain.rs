@@ -6,7 +6,6 @@ use controller_core::control_loop::Decide;
 use controller_core::controller::{Command, Controller, Scaling};
 use controller_core::network::{Elman, Feedforward, Recurrence, RecurrenceKind, SelfLoop, State};
 use controller_core::observation::{Reading, ReadingError};
-use core::fmt;
 
 /// Width of the hidden layers the boards' programs have code for.
 pub const HIDDEN: usize = 12;
@@ -16,7 +15,6 @@ pub const OUTPUTS: usize = 1;
 
 /// Why weights are not used.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
     /// There is no blob, or a damaged one.
     Blob(BlobError),
@@ -26,15 +24,11 @@ pub enum Refusal {
     SelfTest(SelfTestError),
 }
 
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Blob(error) => error.fmt(f),
-            Self::Topology(error) => error.fmt(f),
-            Self::SelfTest(error) => error.fmt(f),
-        }
-    }
-}
+controller_core::sentences! { Refusal {
+    Self::Blob(error) => "{}", error;
+    Self::Topology(error) => "{}", error;
+    Self::SelfTest(error) => "{}", error;
+} }
 
 impl core::error::Error for Refusal {}
 

@@ -6,7 +6,6 @@
 
 use controller_core::observation::{BEAMS, BeamMount};
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_6};
-use core::fmt;
 
 /// Shortest and longest pulse that servos and speed controllers understand, microseconds.
 pub const PULSES: core::ops::RangeInclusive<u16> = 500..=2500;
@@ -144,7 +143,6 @@ impl Checked {
 
 /// A calibration that cannot be meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CalibrationError {
     /// A pulse or a frame that the hardware would not understand, microseconds.
     Time {
@@ -173,19 +171,13 @@ pub enum CalibrationError {
     },
 }
 
-impl fmt::Display for CalibrationError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Time { field, found, shortest, longest } => {
-                write!(f, "{field} is {found} µs, {shortest} to {longest} µs expected")
-            }
-            Self::Order { fields, found: [a, b, c] } => {
-                write!(f, "{fields} are {a}, {b} and {c} µs, rising or falling pulses expected")
-            }
-            Self::Number { field, found } => write!(f, "{field} is {found}, outside its range"),
-        }
-    }
-}
+controller_core::sentences! { CalibrationError {
+    Self::Time { field, found, shortest, longest } =>
+        "{} is {} µs, {} to {} µs expected", field, found, shortest, longest;
+    Self::Order { fields, found: [a, b, c] } =>
+        "{} are {}, {} and {} µs, rising or falling pulses expected", fields, a, b, c;
+    Self::Number { field, found } => "{} is {}, outside its range", field, found;
+} }
 
 impl core::error::Error for CalibrationError {}
 

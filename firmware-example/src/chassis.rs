@@ -11,11 +11,9 @@ use controller_core::control_loop::{Actuate, Sense};
 use controller_core::controller::Command;
 use controller_core::observation::{BEAMS, Echo, Reading, ReadingError, STALE_AFTER};
 use controller_core::units::StepLength;
-use core::fmt;
 
 /// Which actuator refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ActuatorFault {
     /// The motor's speed controller.
     Motor,
@@ -23,14 +21,10 @@ pub enum ActuatorFault {
     Steering,
 }
 
-impl fmt::Display for ActuatorFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Motor => "no pulses for the motor",
-            Self::Steering => "no pulses for the steering servo",
-        })
-    }
-}
+controller_core::sentences! { ActuatorFault {
+    Self::Motor => "no pulses for the motor";
+    Self::Steering => "no pulses for the steering servo";
+} }
 
 impl core::error::Error for ActuatorFault {}
 

@@ -8,8 +8,10 @@ mod support;
 mod support;
 
 use crate::brain::Refusal;
+use crate::last_words::LastWords;
 use crate::{closed_loop, recorded, replay, weights_region};
 use controller_core::blob::BlobError;
+use core::sync::atomic::{AtomicBool, Ordering};
 // Linked for its global logger: defmt frames leave through semihosting.
 use defmt_semihosting as _;
 use semihosting::process;
@@ -29,7 +31,7 @@ pub fn run() -> ! {
         match replay::replay(blob, recording) {
             Ok(steps) => defmt::info!("{=str}: {=usize} steps, every bit as recorded", name, steps),
             Err(error) => {
-                defmt::error!("{=str}: {}", name, defmt::Display2Format(&error));
+                defmt::error!("{=str}: {}", name, error);
                 all_agree = false;
             }
         }
@@ -51,11 +53,11 @@ fn drive_with_weights_in_flash() -> bool {
             true
         }
         Err(refusal @ Refusal::Blob(BlobError::Magic { found: ERASED })) => {
-            defmt::warn!("not driving: {}", defmt::Display2Format(&refusal));
+            defmt::warn!("not driving: {}", refusal);
             true
         }
         Err(refusal) => {
-            defmt::error!("not driving: {}", defmt::Display2Format(&refusal));
+            defmt::error!("not driving: {}", refusal);
             false
         }
     }
@@ -71,18 +73,21 @@ pub fn fail() -> ! {
     process::exit(1)
 }
 
-/// Reports what went wrong and ends the run badly.
-#[cfg(feature = "cortex-m")]
+/// Reports what went wrong and ends the run badly. What fails in here comes here again, and then there is
+/// nothing but the end.
 pub(crate) fn fail_saying(report: impl FnOnce()) -> ! {
-    report();
+    static FAILED_BEFORE: AtomicBool = AtomicBool::new(false);
+    if !FAILED_BEFORE.load(Ordering::Relaxed) {
+        FAILED_BEFORE.store(true, Ordering::Relaxed);
+        report();
+    }
     fail()
 }
 
 /// Reports the panic and ends the run: without an exit QEMU would sit in the handler for ever.
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
-    defmt::error!("panic: {}", defmt::Display2Format(info));
-    fail()
+    fail_saying(|| defmt::error!("{}", LastWords(info)))
 }
 
 /// Fails in the way a `sabotage-*` feature asks for, so that a test sees the runner notice.

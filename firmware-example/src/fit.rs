@@ -2,7 +2,6 @@
 
 use crate::calibration::Checked;
 use controller_core::blob::Header;
-use core::fmt;
 
 /// Control periods this program can keep, seconds: shorter ones starve the sensors, longer ones
 /// outlast the watchdog.
@@ -22,7 +21,6 @@ const ROUNDING: f32 = 1.001;
 
 /// How the car that weights were trained for differs from this one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Misfit {
     /// A control period outside [`PERIODS`], seconds.
     Period {
@@ -77,36 +75,25 @@ pub enum Misfit {
     },
 }
 
-impl fmt::Display for Misfit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("trained for another car: ")?;
-        match self {
-            Self::Period { found } => {
-                let (shortest, longest) = (PERIODS.start(), PERIODS.end());
-                write!(f, "a control period of {found} s, {shortest} to {longest} s expected")
-            }
-            Self::SteerLimit { found, expected } => {
-                write!(f, "it steers to {found} rad, this one to {expected} rad")
-            }
-            Self::Speed { found, expected } => {
-                write!(f, "it drives at {found} m/s, this one at {expected} m/s at most")
-            }
-            Self::Range { found, expected } => {
-                write!(f, "it sees {found} m far, this one {expected} m")
-            }
-            Self::Wheelbase { found, expected } => {
-                write!(f, "its wheelbase is {found} m, this one's {expected} m")
-            }
-            Self::BeamPlace { beam, found: (x, y), expected: (own_x, own_y) } => write!(
-                f,
-                "its beam {beam} starts at ({x}, {y}) m, this one's at ({own_x}, {own_y}) m"
-            ),
-            Self::BeamAngle { beam, found, expected } => {
-                write!(f, "its beam {beam} points to {found} rad, this one's to {expected} rad")
-            }
-        }
-    }
-}
+controller_core::sentences! { Misfit {
+    Self::Period { found } =>
+        "trained for another car: a control period of {} s, {} to {} s expected",
+        found, PERIODS.start(), PERIODS.end();
+    Self::SteerLimit { found, expected } =>
+        "trained for another car: it steers to {} rad, this one to {} rad", found, expected;
+    Self::Speed { found, expected } =>
+        "trained for another car: it drives at {} m/s, this one at {} m/s at most", found, expected;
+    Self::Range { found, expected } =>
+        "trained for another car: it sees {} m far, this one {} m", found, expected;
+    Self::Wheelbase { found, expected } =>
+        "trained for another car: its wheelbase is {} m, this one's {} m", found, expected;
+    Self::BeamPlace { beam, found: (x, y), expected: (own_x, own_y) } =>
+        "trained for another car: its beam {} starts at ({}, {}) m, this one's at ({}, {}) m",
+        beam, x, y, own_x, own_y;
+    Self::BeamAngle { beam, found, expected } =>
+        "trained for another car: its beam {} points to {} rad, this one's to {} rad",
+        beam, found, expected;
+} }
 
 impl core::error::Error for Misfit {}
 

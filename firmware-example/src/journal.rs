@@ -2,15 +2,14 @@
 
 use crate::chassis::ActuatorFault;
 use crate::drivers::rangefinder::{SensorFault, StartError};
+use crate::figures::{degrees, rounded};
 use crate::odometry::Odometry;
 use crate::weights::Refusal;
 use controller_core::controller::Command;
 use controller_core::observation::ReadingError;
-use core::fmt;
 
 /// Something worth a line in the log.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Event {
     /// The weights in flash are good.
     Weights {
@@ -83,36 +82,27 @@ impl Event {
     }
 }
 
-impl fmt::Display for Event {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Weights { check, period } => {
-                write!(f, "weights {check:016x}, a decision every {period} µs")
-            }
-            Self::Refused(refusal) => write!(f, "not driving: {refusal}"),
-            Self::Sensors => f.write_str("all range sensors run"),
-            Self::NoSensors(error) => write!(f, "not driving: {error}"),
-            Self::Armed => f.write_str("armed"),
-            Self::Disarmed { believed } => write!(f, "disarmed: {believed}"),
-            Self::NoButton => f.write_str("disarmed: the button cannot be read"),
-            Self::Recovered => f.write_str("readings are good again"),
-            Self::Stopped(error) => write!(f, "stopped: {error}"),
-            Self::Sensor { beam, fault } => write!(f, "beam {beam}: {fault}"),
-            Self::SensorsLost => {
-                f.write_str("disarmed: no good reading for too long; hold the button to restart")
-            }
-            Self::Actuator(fault) => write!(f, "disarmed, waiting for the watchdog: {fault}"),
-            Self::Late { by } => write!(f, "a control period began {by} µs late"),
-            Self::Restarting => f.write_str("restarting"),
-            Self::Driving { step, command, believed } => write!(
-                f,
-                "step {step}: steer {:.0}°, {:.3} m a step; {believed}",
-                command.steer.radians().to_degrees(),
-                command.step.metres()
-            ),
-        }
-    }
-}
+controller_core::sentences! { Event {
+    Self::Weights { check, period } =>
+        "weights {:016x}, a decision every {} µs", check, period;
+    Self::Refused(refusal) => "not driving: {}", refusal;
+    Self::Sensors => "all range sensors run";
+    Self::NoSensors(error) => "not driving: {}", error;
+    Self::Armed => "armed";
+    Self::Disarmed { believed } => "disarmed: {}", believed;
+    Self::NoButton => "disarmed: the button cannot be read";
+    Self::Recovered => "readings are good again";
+    Self::Stopped(error) => "stopped: {}", error;
+    Self::Sensor { beam, fault } => "beam {}: {}", beam, fault;
+    Self::SensorsLost =>
+        "disarmed: no good reading for too long; hold the button to restart";
+    Self::Actuator(fault) => "disarmed, waiting for the watchdog: {}", fault;
+    Self::Late { by } => "a control period began {} µs late", by;
+    Self::Restarting => "restarting";
+    Self::Driving { step, command, believed } =>
+        "step {}: steer {}°, {} m a step; {}",
+        step, degrees(command.steer.radians()), rounded(command.step.metres(), 1000.0), believed;
+} }
 
 /// Something that keeps events.
 pub trait Journal {
@@ -128,7 +118,6 @@ pub struct DefmtLog;
 #[cfg(feature = "defmt")]
 impl Journal for DefmtLog {
     fn note(&mut self, event: Event) {
-        let text = defmt::Display2Format(&event);
-        if event.is_fault() { defmt::warn!("{}", text) } else { defmt::info!("{}", text) }
+        if event.is_fault() { defmt::warn!("{}", event) } else { defmt::info!("{}", event) }
     }
 }

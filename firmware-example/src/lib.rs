@@ -40,10 +40,13 @@ pub mod emulated;
 ))]
 mod exceptions;
 pub mod fan;
+mod figures;
 pub mod fit;
 pub mod hardware;
 pub mod indicator;
 pub mod journal;
+#[cfg(all(target_os = "none", any(feature = "emulated", feature = "board-pico2")))]
+mod last_words;
 pub mod odometry;
 #[cfg(all(target_os = "none", feature = "board-pico2"))]
 pub mod pico2;

@@ -3,9 +3,9 @@
 //! For people who read the log, and never for driving: sine and cosine are `micromath`'s approximations, and
 //! the wheels may slip. The first has a bound, [`DRIFT`]; the second shows on the floor.
 
+use crate::figures::{degrees, rounded};
 use controller_core::controller::Command;
 use core::f32::consts::{PI, TAU};
-use core::fmt;
 use micromath::F32Ext;
 
 /// Largest error of one step because sine and cosine are approximated: metres per metre driven, and radians
@@ -20,7 +20,6 @@ pub const DRIFT: f32 = 0.003;
 /// left, heading counter-clockwise. The motion is the simulator's: the front axle rolls where the wheels
 /// point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Odometry {
     /// Forward of where it was armed, metres.
     pub x: f32,
@@ -56,13 +55,11 @@ fn within_half_turn(angle: f32) -> f32 {
     }
 }
 
-impl fmt::Display for Odometry {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { x, y, heading, distance } = self;
-        let degrees = heading.to_degrees();
-        write!(f, "{distance:.2} m driven, believed at ({x:.2}, {y:.2}) m, heading {degrees:.0}°")
-    }
-}
+controller_core::sentences! { Odometry {
+    Self { x, y, heading, distance } =>
+        "{} m driven, believed at ({}, {}) m, heading {}°",
+        rounded(*distance, 100.0), rounded(*x, 100.0), rounded(*y, 100.0), degrees(*heading);
+} }
 
 #[cfg(test)]
 mod tests {
@@ -136,9 +133,6 @@ mod tests {
     #[test]
     fn a_person_reads_metres_and_degrees() {
         let believed = Odometry { x: 1.0, y: -0.25, heading: -FRAC_PI_2, distance: 12.345 };
-        assert_eq!(
-            believed.to_string(),
-            "12.35 m driven, believed at (1.00, -0.25) m, heading -90°"
-        );
+        assert_eq!(believed.to_string(), "12.35 m driven, believed at (1, -0.25) m, heading -90°");
     }
 }

@@ -127,7 +127,7 @@ impl Watchdog for Dog {
 
 /// Says what is wrong with the calibration that the program was built with, for ever; nothing moves.
 pub fn halt(error: CalibrationError) -> ! {
-    defmt::error!("not driving: {}", defmt::Display2Format(&error));
+    defmt::error!("not driving: {}", error);
     loop {
         cortex_m::asm::wfi();
     }

@@ -4,7 +4,6 @@ use crate::brain::{Brain, HIDDEN, OUTPUTS, Refusal};
 use controller_core::blob::Blob;
 use controller_core::control_loop::Decide;
 use controller_core::recording::{Difference, Recording, RecordingError};
-use core::fmt;
 
 /// Why a replay did not end with equal bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,18 +28,13 @@ pub enum ReplayError {
     },
 }
 
-impl fmt::Display for ReplayError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Weights(error) => write!(f, "weights refused: {error}"),
-            Self::Recording(error) => write!(f, "recording refused: {error}"),
-            Self::OtherWeights { found, expected } => {
-                write!(f, "weights {found:016x} given, weights {expected:016x} drove")
-            }
-            Self::Difference { step, difference } => write!(f, "step {step}: {difference}"),
-        }
-    }
-}
+controller_core::sentences! { ReplayError {
+    Self::Weights(error) => "{}", error;
+    Self::Recording(error) => "recording refused: {}", error;
+    Self::OtherWeights { found, expected } =>
+        "weights {:016x} given, weights {:016x} drove", found, expected;
+    Self::Difference { step, difference } => "step {}: {}", step, difference;
+} }
 
 impl core::error::Error for ReplayError {}
 

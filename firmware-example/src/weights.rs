@@ -7,11 +7,9 @@ use crate::brain::{self, Brain};
 use crate::calibration::Checked;
 use crate::fit::{self, Misfit};
 use controller_core::blob::Blob;
-use core::fmt;
 
 /// Why the car does not drive with what lies in its weights region.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
     /// No car could drive with them.
     Unusable(brain::Refusal),
@@ -19,14 +17,10 @@ pub enum Refusal {
     Misfit(Misfit),
 }
 
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unusable(error) => error.fmt(f),
-            Self::Misfit(error) => error.fmt(f),
-        }
-    }
-}
+controller_core::sentences! { Refusal {
+    Self::Unusable(error) => "{}", error;
+    Self::Misfit(error) => "{}", error;
+} }
 
 impl core::error::Error for Refusal {}
 

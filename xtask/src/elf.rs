@@ -1,5 +1,11 @@
 //! The few fields of a 32-bit little-endian ELF file that tell what a program loads, how much memory it takes,
-//! and where the linker put a name.
+//! where the linker put a name, and which code belongs to which function.
+
+mod functions;
+mod stack_sizes;
+
+pub(crate) use functions::{Function, functions};
+pub(crate) use stack_sizes::stack_sizes;
 
 /// Bytes a program takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,16 +47,24 @@ pub(crate) fn size(elf: &[u8]) -> Result<Size, &'static str> {
 
 /// The address of a name, if the program has it.
 pub(crate) fn address(elf: &[u8], name: &str) -> Result<Option<u32>, &'static str> {
+    let found = symbols(elf)?.into_iter().find(|symbol| symbol.name == name.as_bytes());
+    Ok(found.map(|symbol| symbol.value))
+}
+
+/// The instruction set, as the header's `e_machine` states it.
+pub(crate) fn machine(elf: &[u8]) -> Result<u16, &'static str> {
+    sections(elf)?;
+    half(elf, 18).ok_or(CUT).map(|machine| machine as u16)
+}
+
+/// The bytes of the first section with this name.
+pub(crate) fn section<'a>(elf: &'a [u8], name: &str) -> Result<Option<&'a [u8]>, &'static str> {
     let sections = sections(elf)?;
-    for table in sections.iter().filter(|section| section.kind == SECTION_SYMBOLS) {
-        let names = sections.get(table.link).ok_or(CUT)?.file_offset;
-        for symbol in (0..table.bytes / SYMBOL_BYTES).map(|i| table.file_offset + i * SYMBOL_BYTES)
-        {
-            let its_name = names + word(elf, symbol).ok_or(CUT)? as usize;
-            let rest = elf.get(its_name..).ok_or(CUT)?.strip_prefix(name.as_bytes());
-            if rest.is_some_and(|rest| rest.first() == Some(&0)) {
-                return word(elf, symbol + 4).ok_or(CUT).map(Some);
-            }
+    let names = sections.get(half(elf, 50).ok_or(CUT)?).ok_or(CUT)?.file_offset;
+    for section in sections.iter().filter(|section| section.kind != SECTION_NOBITS) {
+        if text(elf, names + section.name)? == name.as_bytes() {
+            let end = section.file_offset + section.bytes;
+            return elf.get(section.file_offset..end).ok_or(CUT).map(Some);
         }
     }
     Ok(None)
@@ -84,11 +98,47 @@ pub(crate) fn segments(elf: &[u8]) -> Result<Vec<Segment<'_>>, &'static str> {
     Ok(segments)
 }
 
+/// One row of the symbol table.
+struct Symbol<'a> {
+    name: &'a [u8],
+    value: u32,
+    bytes: u32,
+    kind: u8,
+    section: usize,
+}
+
+fn symbols(elf: &[u8]) -> Result<Vec<Symbol<'_>>, &'static str> {
+    let sections = sections(elf)?;
+    let mut symbols = Vec::new();
+    for table in sections.iter().filter(|section| section.kind == SECTION_SYMBOLS) {
+        let names = sections.get(table.link).ok_or(CUT)?.file_offset;
+        for at in (0..table.bytes / SYMBOL_BYTES).map(|i| table.file_offset + i * SYMBOL_BYTES) {
+            let field = |offset| word(elf, at + offset).ok_or(CUT);
+            symbols.push(Symbol {
+                name: text(elf, names + field(0)? as usize)?,
+                value: field(4)?,
+                bytes: field(8)?,
+                kind: *elf.get(at + 12).ok_or(CUT)? & 0x0f,
+                section: half(elf, at + 14).ok_or(CUT)?,
+            });
+        }
+    }
+    Ok(symbols)
+}
+
+/// The bytes before the zero that ends a name.
+fn text(elf: &[u8], at: usize) -> Result<&[u8], &'static str> {
+    let rest = elf.get(at..).ok_or(CUT)?;
+    let end = rest.iter().position(|byte| *byte == 0).ok_or(CUT)?;
+    Ok(&rest[..end])
+}
+
 /// One row of the section table.
 struct Section {
     name: usize,
     kind: u32,
     flags: u32,
+    address: u32,
     file_offset: usize,
     bytes: usize,
     link: usize,
@@ -106,6 +156,7 @@ fn sections(elf: &[u8]) -> Result<Vec<Section>, &'static str> {
                 name: field(0)? as usize,
                 kind: field(4)?,
                 flags: field(8)?,
+                address: field(12)?,
                 file_offset: field(16)? as usize,
                 bytes: field(20)? as usize,
                 link: field(24)? as usize,

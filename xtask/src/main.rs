@@ -10,16 +10,20 @@
 
 mod apt;
 mod boards;
+mod call_graph;
 mod doctor;
 mod elf;
 mod exhaustive;
 mod failure;
 mod firmware;
 mod lint;
+mod machine;
 mod options;
+mod panics;
 mod process;
 mod qemu;
 mod size;
+mod stack;
 mod targets;
 mod test;
 mod tools;
@@ -86,6 +90,18 @@ const COMMANDS: &[Command] = &[
         arguments: "",
         summary: "every f32 there is through every tanh; minutes, not part of test",
         run: exhaustive::run,
+    },
+    Command {
+        name: "panics",
+        arguments: "[BOARD]…",
+        summary: "which functions of each board's program can panic",
+        run: panics::run,
+    },
+    Command {
+        name: "stack",
+        arguments: "[BOARD]…",
+        summary: "the most stack each board's program can take, and on which path",
+        run: stack::run,
     },
     Command {
         name: "size",

@@ -7,7 +7,6 @@ use crate::controller::Scaling;
 use crate::network::{RecurrenceKind, Topology};
 use crate::observation::{BEAMS, BeamMount, DistanceLaw, Encoding, INPUTS, TypeCode};
 use core::f32::consts::{FRAC_PI_2, PI};
-use core::fmt;
 
 /// Longest scenario name that fits, bytes of UTF-8.
 pub const NAME_BYTES: usize = 32;
@@ -73,7 +72,6 @@ impl Provenance {
 
 /// A header field that no writer of this version stores.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum HeaderError {
     /// A code without a meaning.
     Code {
@@ -100,21 +98,13 @@ pub enum HeaderError {
     Name,
 }
 
-impl fmt::Display for HeaderError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Code { field, value } => write!(f, "unknown {field} {value} in the header"),
-            Self::Number { field, value } => {
-                write!(f, "{field} in the header is {value}, outside its range")
-            }
-            Self::HeaderLength { found } => {
-                write!(f, "a header of {found} bytes, {HEADER_BYTES} expected")
-            }
-            Self::Padding => write!(f, "padding in the header is not zero"),
-            Self::Name => write!(f, "the scenario's name in the header is not padded UTF-8"),
-        }
-    }
-}
+crate::sentences! { HeaderError {
+    Self::Code { field, value } => "unknown {} {} in the header", field, value;
+    Self::Number { field, value } => "{} in the header is {}, outside its range", field, value;
+    Self::HeaderLength { found } => "a header of {} bytes, {} expected", found, HEADER_BYTES;
+    Self::Padding => "padding in the header is not zero";
+    Self::Name => "the scenario's name in the header is not padded UTF-8";
+} }
 
 impl core::error::Error for HeaderError {}
 

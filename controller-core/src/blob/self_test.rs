@@ -4,12 +4,10 @@ use super::{Blob, WrongTopology};
 use crate::activation::{Activation, ActivationKind};
 use crate::network::{Recurrence, State};
 use crate::observation::INPUTS;
-use core::fmt;
 use core::hint::black_box;
 
 /// This machine computes something else than the one that wrote the blob.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SelfTestError {
     /// The blob holds another network.
     Topology(WrongTopology),
@@ -40,24 +38,15 @@ pub enum SelfTestError {
     },
 }
 
-impl fmt::Display for SelfTestError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Topology(error) => error.fmt(f),
-            Self::Activation { found, expected } => {
-                write!(f, "the blob was trained with tanh {found}, this program runs {expected}")
-            }
-            Self::Output { triple, output, found, expected } => write!(
-                f,
-                "self-test {triple}, output {output}: {found:08x} computed, {expected:08x} recorded"
-            ),
-            Self::Arithmetic { found, expected } => write!(
-                f,
-                "this machine's arithmetic is not IEEE 754: {found:08x} computed, {expected:08x} expected"
-            ),
-        }
-    }
-}
+crate::sentences! { SelfTestError {
+    Self::Topology(error) => "{}", error;
+    Self::Activation { found, expected } =>
+        "the blob was trained with tanh {}, this program runs {}", found, expected;
+    Self::Output { triple, output, found, expected } =>
+        "self-test {}, output {}: {:08x} computed, {:08x} recorded", triple, output, found, expected;
+    Self::Arithmetic { found, expected } =>
+        "this machine's arithmetic is not IEEE 754: {:08x} computed, {:08x} expected", found, expected;
+} }
 
 impl core::error::Error for SelfTestError {}
 

@@ -1,10 +1,7 @@
 //! Where two machines first disagree.
 
-use core::fmt;
-
 /// A value of one step, by its place in the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Place {
     /// The commanded steer angle.
     Steer,
@@ -36,21 +33,16 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Steer => f.write_str("steer angle"),
-            Self::StepLength => f.write_str("step length"),
-            Self::Output(neuron) => write!(f, "output neuron {neuron}"),
-            Self::First(neuron) => write!(f, "neuron {neuron} of the first hidden layer"),
-            Self::Second(neuron) => write!(f, "neuron {neuron} of the second hidden layer"),
-        }
-    }
-}
+crate::sentences! { Place {
+    Self::Steer => "steer angle";
+    Self::StepLength => "step length";
+    Self::Output(neuron) => "output neuron {}", neuron;
+    Self::First(neuron) => "neuron {} of the first hidden layer", neuron;
+    Self::Second(neuron) => "neuron {} of the second hidden layer", neuron;
+} }
 
 /// One value with other bits than recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Difference {
     /// Which value.
     pub place: Place,
@@ -60,9 +52,6 @@ pub struct Difference {
     pub expected: u32,
 }
 
-impl fmt::Display for Difference {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { place, found, expected } = self;
-        write!(f, "{place}: {found:08x} computed, {expected:08x} recorded")
-    }
-}
+crate::sentences! { Difference {
+    Self { place, found, expected } => "{}: {:08x} computed, {:08x} recorded", place, found, expected;
+} }

@@ -1,10 +1,7 @@
 //! Why bytes are not a recording.
 
-use core::fmt;
-
 /// Why bytes are not a recording that this program can replay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RecordingError {
     /// The bytes are not whole words, or do not start at a multiple of four.
     NotWords {
@@ -53,35 +50,21 @@ pub enum RecordingError {
     },
 }
 
-impl fmt::Display for RecordingError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotWords { bytes } => {
-                write!(f, "{bytes} bytes at their address are not whole, aligned 32-bit words")
-            }
-            Self::Magic { .. } => {
-                write!(f, "no recording here: it does not start with \"EVODRIVE\"")
-            }
-            Self::Version { found, expected } => {
-                write!(f, "recording format version {found}, this program reads version {expected}")
-            }
-            Self::Network { found, expected } => write!(
-                f,
-                "recorded with hidden layers of {} and {} outputs, this program has {} and {}",
-                found.0, found.1, expected.0, expected.1
-            ),
-            Self::Length { found, expected } => {
-                write!(f, "{found} words, a recording of {expected} words expected")
-            }
-            Self::Check { found: [low, high], expected: [ours, our_high] } => write!(
-                f,
-                "damaged: check {high:08x}{low:08x} stored, {our_high:08x}{ours:08x} computed"
-            ),
-            Self::EchoCode { step, found } => {
-                write!(f, "step {step}: a beam's report has code {found}, 0 to 3 expected")
-            }
-        }
-    }
-}
+crate::sentences! { RecordingError {
+    Self::NotWords { bytes } =>
+        "{} bytes at their address are not whole, aligned 32-bit words", bytes;
+    Self::Magic { .. } => "no recording here: it does not start with \"EVODRIVE\"";
+    Self::Version { found, expected } =>
+        "recording format version {}, this program reads version {}", found, expected;
+    Self::Network { found: (hidden, outputs), expected: (own_hidden, own_outputs) } =>
+        "recorded with hidden layers of {} and {} outputs, this program has {} and {}",
+        hidden, outputs, own_hidden, own_outputs;
+    Self::Length { found, expected } =>
+        "{} words, a recording of {} words expected", found, expected;
+    Self::Check { found: [low, high], expected: [ours, our_high] } =>
+        "damaged: check {:08x}{:08x} stored, {:08x}{:08x} computed", high, low, our_high, ours;
+    Self::EchoCode { step, found } =>
+        "step {}: a beam's report has code {}, 0 to 3 expected", step, found;
+} }
 
 impl core::error::Error for RecordingError {}

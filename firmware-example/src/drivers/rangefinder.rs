@@ -1,7 +1,6 @@
 //! What range sensors report, and how they fail.
 
 use controller_core::observation::BEAMS;
-use core::fmt;
 use embedded_hal::i2c;
 
 /// One measurement. Nearer is smaller; nothing is further than everything.
@@ -34,7 +33,6 @@ pub trait RangeFinders {
 
 /// What is wrong with one sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SensorFault {
     /// The bus between the sensor and us.
     Bus(BusFault),
@@ -56,25 +54,19 @@ pub enum SensorFault {
     NoSuchBeam,
 }
 
-impl fmt::Display for SensorFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Bus(fault) => fault.fmt(f),
-            Self::OtherDevice { found, expected } => {
-                write!(f, "another device answers: identity {found:#04x}, {expected:#04x} expected")
-            }
-            Self::Timeout => write!(f, "it did not finish its calibration"),
-            Self::Hardware { status } => write!(f, "it reports a hardware fault, status {status}"),
-            Self::NoSuchBeam => write!(f, "there is no such beam"),
-        }
-    }
-}
+controller_core::sentences! { SensorFault {
+    Self::Bus(fault) => "{}", fault;
+    Self::OtherDevice { found, expected } =>
+        "another device answers: identity {:#04x}, {:#04x} expected", found, expected;
+    Self::Timeout => "it did not finish its calibration";
+    Self::Hardware { status } => "it reports a hardware fault, status {}", status;
+    Self::NoSuchBeam => "there is no such beam";
+} }
 
 impl core::error::Error for SensorFault {}
 
 /// What went wrong on an I²C bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum BusFault {
     /// Nobody acknowledged: the device is off, missing, or at another address.
     NoAnswer,
@@ -100,21 +92,16 @@ impl From<i2c::ErrorKind> for BusFault {
     }
 }
 
-impl fmt::Display for BusFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::NoAnswer => "it does not answer",
-            Self::Arbitration => "another master took the bus",
-            Self::Wiring => "the bus is disturbed: check its wires and pull-ups",
-            Self::Overrun => "the bus overran",
-            Self::Other => "the bus driver gave up",
-        })
-    }
-}
+controller_core::sentences! { BusFault {
+    Self::NoAnswer => "it does not answer";
+    Self::Arbitration => "another master took the bus";
+    Self::Wiring => "the bus is disturbed: check its wires and pull-ups";
+    Self::Overrun => "the bus overran";
+    Self::Other => "the bus driver gave up";
+} }
 
 /// Why the five sensors could not be started.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum StartError {
     /// A sensor's shutdown line could not be driven.
     ShutdownLine {
@@ -136,22 +123,12 @@ pub enum StartError {
     },
 }
 
-impl fmt::Display for StartError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::ShutdownLine { beam } => {
-                write!(f, "beam {beam} of 0 to {}: cannot drive its shutdown line", BEAMS - 1)
-            }
-            Self::NotInReset { address } => write!(
-                f,
-                "address {address:#04x} answers while all sensors are in reset: \
-                 check the shutdown lines"
-            ),
-            Self::Sensor { beam, fault } => {
-                write!(f, "beam {beam} of 0 to {}: {fault}", BEAMS - 1)
-            }
-        }
-    }
-}
+controller_core::sentences! { StartError {
+    Self::ShutdownLine { beam } =>
+        "beam {} of 0 to {}: cannot drive its shutdown line", beam, BEAMS - 1;
+    Self::NotInReset { address } =>
+        "address {:#04x} answers while all sensors are in reset: check the shutdown lines", address;
+    Self::Sensor { beam, fault } => "beam {} of 0 to {}: {}", beam, BEAMS - 1, fault;
+} }
 
 impl core::error::Error for StartError {}

@@ -17,18 +17,20 @@ pub(super) fn undefined_instruction() -> ! {
 // SAFETY: riscv-rt declares the function with this signature and looks it up under this name.
 #[unsafe(export_name = "ExceptionHandler")]
 extern "C" fn exception(frame: &TrapFrame) -> ! {
-    defmt::error!(
-        "exception {=usize} at pc {=usize:#010x}, called from {=usize:#010x}",
-        mcause::read().code(),
-        mepc::read(),
-        frame.ra
-    );
-    super::fail()
+    super::fail_saying(|| {
+        defmt::error!(
+            "exception {=usize} at pc {=usize:#010x}, called from {=usize:#010x}",
+            mcause::read().code(),
+            mepc::read(),
+            frame.ra
+        );
+    })
 }
 
 // SAFETY: as above.
 #[unsafe(export_name = "DefaultHandler")]
 extern "C" fn interrupt() -> ! {
-    defmt::error!("interrupt {=usize} has no handler", mcause::read().code());
-    super::fail()
+    super::fail_saying(|| {
+        defmt::error!("interrupt {=usize} has no handler", mcause::read().code());
+    })
 }

@@ -2,6 +2,7 @@
 
 use super::{CALIBRATION, FAILED, MARK, motor, servo};
 use crate::app;
+use crate::last_words::LastWords;
 use core::sync::atomic::{AtomicBool, Ordering};
 use embassy_rp::clocks::clk_sys_freq;
 use embassy_rp::peripherals::{PIN_16, PIN_18, PWM_SLICE0, PWM_SLICE1, WATCHDOG};
@@ -49,5 +50,5 @@ fn reset() -> ! {
 
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
-    fail(|| defmt::error!("panic: {}", defmt::Display2Format(info)))
+    fail(|| defmt::error!("{}", LastWords(info)))
 }
