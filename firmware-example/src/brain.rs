@@ -3,9 +3,14 @@
 use controller_core::activation::{ActivationKind, Libm, Micromath, Rational};
 use controller_core::blob::{Blob, BlobError, SelfTestError, WrongTopology};
 use controller_core::control_loop::Decide;
-use controller_core::controller::{Command, Controller, Scaling};
+#[cfg(not(any(feature = "sabotage-reordered-sum", feature = "sabotage-fused-sum")))]
+use controller_core::controller::Controller;
+use controller_core::controller::{Command, Scaling};
 use controller_core::network::{Elman, Feedforward, Recurrence, RecurrenceKind, SelfLoop, State};
 use controller_core::observation::{Reading, ReadingError};
+
+#[cfg(any(feature = "sabotage-reordered-sum", feature = "sabotage-fused-sum"))]
+use crate::sabotage::Controller;
 
 /// Width of the hidden layers the boards' programs have code for.
 pub const HIDDEN: usize = 12;

@@ -1,14 +1,10 @@
-//! Drives a car through the room: what it does decides what it sees next, so one differing bit grows.
+//! Drives with the weights in flash: a drive through the room, boiled down to one number.
 
 use crate::brain::{Brain, HIDDEN, OUTPUTS, Refusal};
-use crate::room;
-use controller_core::blob::{Blob, Header};
-use controller_core::control_loop::{Actuate, Sense, tick};
-use controller_core::controller::Command;
-use controller_core::motion::Pose;
-use controller_core::observation::{Reading, ReadingError};
-use core::convert::Infallible;
+use controller_core::blob::Blob;
 use crc::{CRC_64_XZ, Crc, NoTable};
+use equivalence_tests::closed_loop::ClosedLoop;
+use equivalence_tests::course::Course;
 
 const DIGEST: Crc<u64, NoTable> = Crc::<u64, NoTable>::new(&CRC_64_XZ);
 
@@ -31,47 +27,13 @@ pub struct Drive {
 /// Why the weights cannot be used; then nothing is driven.
 pub fn drive(region: &[u8], steps: u32) -> Result<Drive, Refusal> {
     let blob = Blob::parse_prefix(region).map_err(Refusal::Blob)?;
-    let mut brain = Brain::new(&blob)?;
-    Ok(Drive { weights: blob.check(), digest: digest(blob.header(), &mut brain, steps) })
-}
-
-fn digest(header: &Header, brain: &mut Brain<'_, HIDDEN, OUTPUTS>, steps: u32) -> u64 {
-    let mut car = Car { header, pose: Pose::new(0.0, 0.0, 0.0) };
+    let mut brain = Brain::<HIDDEN, OUTPUTS>::new(&blob)?;
+    let mut car = ClosedLoop::new(blob.header(), Course::Tour);
     let mut digest = DIGEST.digest();
-    for step in 0..steps {
-        car.pose = room::start(step).unwrap_or(car.pose);
-        // A bad reading has already become a stop, and this actuator refuses nothing.
-        let command = tick(&mut car, brain).unwrap_or(Command::STOP);
-        let hidden = brain.state();
-        let commanded = [command.steer.radians(), command.step.metres()];
-        let reached = [car.pose.x, car.pose.y, car.pose.heading];
-        let values: [&[f32]; 5] =
-            [&commanded, brain.outputs(), &hidden.first, &hidden.second, &reached];
-        for value in values.into_iter().flatten() {
-            digest.update(&value.to_bits().to_le_bytes());
+    for _ in 0..steps {
+        for word in car.step(&mut brain) {
+            digest.update(&word.to_le_bytes());
         }
     }
-    digest.finalize()
-}
-
-/// A car in the room, built as the blob's header says.
-struct Car<'a> {
-    header: &'a Header,
-    pose: Pose<f32>,
-}
-
-impl Sense for Car<'_> {
-    fn sense(&mut self) -> Result<Reading, ReadingError> {
-        let range = self.header.scaling.range;
-        Reading::new(room::look(&self.pose, &self.header.beams, range), 0, range)
-    }
-}
-
-impl Actuate for Car<'_> {
-    type Error = Infallible;
-
-    fn actuate(&mut self, command: Command) -> Result<(), Infallible> {
-        self.pose = room::drive(&self.pose, command, self.header.wheelbase);
-        Ok(())
-    }
+    Ok(Drive { weights: blob.check(), digest: digest.finalize() })
 }

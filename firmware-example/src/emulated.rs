@@ -1,5 +1,6 @@
 //! How a program on a board that QEMU stands in for logs, panics and ends; and the program itself.
 
+mod proof;
 #[cfg(feature = "cortex-m")]
 #[path = "emulated/cortex_m_support.rs"]
 mod support;
@@ -23,9 +24,13 @@ const ERASED: [u8; 8] = [0xff; 8];
 const STEPS: u32 = 200;
 
 /// Replays every recorded drive, drives with the weights in flash if there are any, reports each, and
-/// ends the run: badly if a bit differed or weights were refused.
+/// ends the run: badly if a bit differed or weights were refused. Started with the command line `prove` it drives
+/// the cases of a file instead.
 pub fn run() -> ! {
     sabotage();
+    if proof::is_asked_for() {
+        if proof::run() { succeed() } else { fail() }
+    }
     let mut all_agree = true;
     for &recorded::Drive { name, blob, recording } in recorded::ALL {
         match replay::replay(blob, recording) {

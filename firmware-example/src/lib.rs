@@ -16,7 +16,8 @@
 //! | [`odometry`] | where the car believes it is, for the log |
 //! | [`clock`] | time, and the watchdog |
 //! | [`brain`] | a controller for whichever network and tanh a blob names, open to inspection |
-//! | [`closed_loop`], [`room`] | driving through a room of our own, as a digest |
+//! | [`closed_loop`] | driving through a room with the weights in flash, as a digest |
+//! | [`proof`] | this program as a machine whose every value is compared with the host's |
 //! | [`replay`] | running recorded drives again and comparing bits |
 //! | [`recorded`] | the drives that every emulated board replays |
 //! | `pico2` (on that board only) | its calibration, clock, watchdog, log, and how it fails |
@@ -50,9 +51,11 @@ mod last_words;
 pub mod odometry;
 #[cfg(all(target_os = "none", feature = "board-pico2"))]
 pub mod pico2;
+pub mod proof;
 pub mod recorded;
 pub mod replay;
-pub mod room;
+#[cfg(any(feature = "sabotage-reordered-sum", feature = "sabotage-fused-sum"))]
+mod sabotage;
 pub mod weights;
 #[cfg(target_os = "none")]
 pub mod weights_region;

@@ -1,15 +1,16 @@
 //! One drive, from weights to the bytes of its blob and its recording.
 
-use controller_core::activation::Activation;
-use controller_core::blob::{self, Blob, Header};
+use controller_core::blob::{Blob, Header};
 use controller_core::control_loop::Decide;
 use controller_core::controller::Controller;
 use controller_core::motion::Pose;
-use controller_core::network::{Network, Recurrence, State};
+use controller_core::network::{Network, Recurrence};
 use controller_core::observation::{BEAMS, Echo, INPUTS, Reading};
 use controller_core::recording;
-use firmware_example::brain::{HIDDEN, OUTPUTS};
-use firmware_example::room;
+
+use crate::closed_loop::{HIDDEN, OUTPUTS};
+use crate::room;
+use crate::weight_sets::{self, SelfTest};
 
 /// Steps of a drive.
 pub const STEPS: u32 = 200;
@@ -37,31 +38,21 @@ impl Recorded {
 
 /// Drives [`STEPS`] steps, faults of the sensors included, and writes everything down.
 ///
-/// `self_tests` are inputs with both hidden layers before the step.
-///
 /// # Panics
 ///
-/// If the header does not describe these weights: the cases are fixed, so a test fails.
+/// If the header does not describe these weights: the drives are fixed, so a test fails.
 pub fn record<R: Recurrence>(
     header: &Header,
-    activation: impl Activation,
     weights: &[f32],
-    self_tests: &[([f32; INPUTS], State<f32, HIDDEN>)],
+    self_tests: &[SelfTest],
 ) -> Recorded {
+    let blob = weight_sets::build(header, weights, self_tests);
     let network = Network::<R, f32, INPUTS, HIDDEN, OUTPUTS>::new(weights, header.topology.biases)
         .expect("weights fit the network");
-    let mut triples = Vec::new();
-    for (inputs, state) in self_tests {
-        triples.extend(inputs.iter().chain(&state.first).chain(&state.second));
-        triples.extend(network.step(activation, &mut state.clone(), inputs));
-    }
-    let mut blob = vec![0u32; header.blob_len() / 4];
-    blob::encode(header, weights, &triples, bytemuck::cast_slice_mut(&mut blob))
-        .expect("a valid blob");
     let check =
         Blob::parse(bytemuck::cast_slice(&blob)).expect("what was written can be read").check();
 
-    let mut controller = Controller::new(network, activation, header.scaling);
+    let mut controller = Controller::new(network, header.activation, header.scaling);
     let mut words = recording::header::<HIDDEN, OUTPUTS>(STEPS, check).to_vec();
     let mut pose = Pose::new(0.0, 0.0, 0.0);
     for step in 0..STEPS {

@@ -6,7 +6,7 @@ use controller_core::activation::ActivationKind;
 use controller_core::blob::Blob;
 use controller_core::network::RecurrenceKind;
 use controller_core::recording::Place;
-use equivalence_tests::{cases, drive};
+use equivalence_tests::{drive, recorded_drives as cases, room};
 use firmware_example::closed_loop;
 use firmware_example::recorded::{self, Drive};
 use firmware_example::replay::{ReplayError, replay};
@@ -117,7 +117,7 @@ fn a_recording_covers_faults_walls_the_target_and_free_space() {
 fn readings(recording: &[u8]) -> Vec<impl std::fmt::Debug> {
     let recording =
         controller_core::recording::Recording::<12, 1>::parse(recording).expect("valid");
-    recording.steps().map(|step| step.reading(firmware_example::room::RANGE)).collect()
+    recording.steps().map(|step| step.reading(room::RANGE)).collect()
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 #[path = "on_qemu/program.rs"]
 mod program;
+#[path = "on_qemu/proof.rs"]
+mod proof;
 #[path = "on_qemu/weights.rs"]
 mod weights;
 
@@ -46,6 +48,19 @@ fn main() -> ExitCode {
         ("weights_of_another_network_are_refused_with_both_named", weights::other_network),
         ("weights_whose_self_test_fails_on_this_machine_are_refused", weights::self_test),
         ("weights_larger_than_the_flash_for_them_are_refused_before_the_start", weights::too_large),
+        (
+            "a_million_steps_with_144_weight_sets_give_the_hosts_bits_on_the_m4f_and_100_000_on_every_other_board",
+            proof::million,
+        ),
+        (
+            "every_weight_one_ulp_up_or_down_is_noticed_on_the_board_at_the_step_the_host_says",
+            proof::one_ulp,
+        ),
+        (
+            "products_added_in_another_order_or_fused_are_noticed_and_the_first_difference_is_named",
+            proof::spoilt_sums,
+        ),
+        ("a_board_refuses_damaged_cases_and_says_so", proof::damaged_cases),
         ("a_panic_ends_the_run_with_failure", panics),
         ("a_fault_ends_the_run_with_failure", faults),
         ("a_program_that_hangs_is_stopped_and_said_so", hangs),

@@ -69,7 +69,7 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "build",
-        arguments: "[BOARD]… [--sabotage panic|fault|hang]",
+        arguments: "[BOARD]… [--sabotage panic|fault|hang|reordered-sum|fused-sum]",
         summary: "builds the boards and prints the path of each program",
         run: firmware::run,
     },
@@ -81,7 +81,7 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "qemu",
-        arguments: "ELF [--board BOARD] [--weights BLOB] [--icount SHIFT] [--timeout SECONDS]",
+        arguments: "ELF [--board BOARD] [--weights BLOB] [--icount SHIFT] [--prove FOLDER] [--timeout SECONDS]",
         summary: "runs a board's program in QEMU, decodes its log, passes its exit code on",
         run: qemu::run,
     },

@@ -52,12 +52,17 @@ pub(crate) struct Options {
     /// `--icount`: 2 to the power of this is how many nanoseconds an instruction takes on the board's
     /// clock; without it that clock is this machine's.
     pub(crate) icount: Option<u8>,
+    /// `--prove`: the folder with the cases that the board drives instead, and for its results.
+    pub(crate) prove: Option<PathBuf>,
     /// `--timeout`: wall-clock time a board may take, 60 s unless said otherwise.
     pub(crate) timeout: Duration,
 }
 
 /// Every option; each takes a value.
-const VALUED: [&str; 6] = ["targets", "board", "sabotage", "weights", "icount", "timeout"];
+const VALUED: [&str; 7] = ["targets", "board", "sabotage", "weights", "icount", "prove", "timeout"];
+
+/// Ways to spoil a program, each a feature `sabotage-<way>` of the boards.
+const SABOTAGES: [&str; 5] = ["panic", "fault", "hang", "reordered-sum", "fused-sum"];
 
 impl Options {
     /// Reads the words after `cargo xtask`.
@@ -75,6 +80,7 @@ impl Options {
             sabotage: None,
             weights: None,
             icount: None,
+            prove: None,
             timeout,
         };
         let mut words = arguments.into_iter();
@@ -109,20 +115,20 @@ impl Options {
             "targets" => self.targets = TargetSource::from_name(&value, "--targets")?,
             "board" => self.board = Some(value),
             "weights" => self.weights = Some(value.into()),
+            "prove" => self.prove = Some(value.into()),
             "icount" => {
                 let shift = value.parse().ok().filter(|shift| *shift <= 10);
                 self.icount = Some(shift.ok_or_else(|| {
                     Failure::usage(format!("--icount: found `{value}`, expected 0 to 10"))
                 })?);
             }
-            "sabotage" => match value.as_str() {
-                "panic" | "fault" | "hang" => self.sabotage = Some(value),
-                _ => {
-                    return Err(Failure::usage(format!(
-                        "--sabotage: found `{value}`, expected panic, fault or hang"
-                    )));
-                }
-            },
+            "sabotage" if SABOTAGES.contains(&value.as_str()) => self.sabotage = Some(value),
+            "sabotage" => {
+                return Err(Failure::usage(format!(
+                    "--sabotage: found `{value}`, expected one of: {}",
+                    SABOTAGES.join(", ")
+                )));
+            }
             _ => {
                 let seconds = value.parse().ok().filter(|seconds| (1..=86_400).contains(seconds));
                 let seconds = seconds.ok_or_else(|| {
@@ -161,7 +167,7 @@ mod tests {
         let message = |line| parse(line).expect_err(line).to_string();
         assert_eq!(
             message("test --target x"),
-            "no option `--target`; expected one of: --targets, --board, --sabotage, --weights, --icount, --timeout"
+            "no option `--target`; expected one of: --targets, --board, --sabotage, --weights, --icount, --prove, --timeout"
         );
         assert_eq!(
             message("test --targets brew"),

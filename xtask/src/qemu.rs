@@ -29,6 +29,9 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let weights = options.weights.as_deref();
     let flash = flash::device(flash::Region::of(elf)?, weights)?;
     tools::need_emulator(board)?;
+    if let Some(folder) = options.prove.as_deref().filter(|folder| !folder.is_dir()) {
+        return Err(Failure::usage(format!("--prove: no folder at {}", folder.display())));
+    }
     emulate(board, elf, flash.as_deref(), options)
 }
 
@@ -58,6 +61,9 @@ fn emulate(
         .arg(absolute(elf));
     if let Some(weights) = &options.weights {
         command.arg("--weights").arg(absolute(weights));
+    }
+    if let Some(folder) = &options.prove {
+        command.arg("--prove").arg(absolute(folder));
     }
     if let Some(shift) = options.icount {
         command.args(["--icount", &shift.to_string()]);

@@ -12,19 +12,20 @@ use crate::failure::Failure;
 use crate::options::Options;
 use crate::process;
 
-/// Runs the program for at most `--timeout`, on a clock as `--icount` says, and ends as it ended.
+/// Runs the program for at most `--timeout`, on a clock as `--icount` says and with the files of `--prove`, and ends as it ended.
 pub(super) fn run(
     board: &Board,
     elf: &Path,
     flash: Option<&str>,
-    &Options { timeout, icount, .. }: &Options,
+    options: &Options,
 ) -> Result<(), Failure> {
     let bytes = std::fs::read(elf)
         .map_err(|error| Failure::usage(format!("cannot read {}: {error}", elf.display())))?;
     let log = Log::of(&bytes).map_err(|error| {
         Failure::failed(format!("{}: its log cannot be decoded: {error:#}", elf.display()))
     })?;
-    let mut child = start(board, elf, flash, icount)?;
+    let timeout = options.timeout;
+    let mut child = start(board, elf, flash, options)?;
     let ended = follow(&mut child, &log, Instant::now() + timeout)?;
     match ended.and_then(|status| status.code()) {
         Some(0) => Ok(()),
@@ -49,10 +50,17 @@ fn start(
     board: &Board,
     elf: &Path,
     flash: Option<&str>,
-    icount: Option<u8>,
+    options: &Options,
 ) -> Result<Child, Failure> {
-    let clock = icount.map(|shift| format!("shift={shift},align=off"));
-    Command::new(board.emulator.program)
+    let clock = options.icount.map(|shift| format!("shift={shift},align=off"));
+    let mut semihosting = String::from("enable=on,target=native");
+    let mut command = Command::new(board.emulator.program);
+    if let Some(folder) = &options.prove {
+        // The program opens its files in the folder it runs in, so no path has to fit its command line.
+        semihosting += ",arg=prove";
+        command.current_dir(folder);
+    }
+    command
         .args([
             "-machine",
             board.emulator.machine,
@@ -65,7 +73,7 @@ fn start(
         .args(board.emulator.options)
         .args(flash.into_iter().flat_map(|loader| ["-device", loader]))
         .args(clock.iter().flat_map(|clock| ["-icount", clock]))
-        .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
+        .args(["-semihosting-config", &semihosting, "-kernel"])
         .arg(elf)
         .stdin(Stdio::null())
         .stdout(Stdio::piped())

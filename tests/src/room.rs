@@ -1,9 +1,11 @@
 //! A room with boxes and a target, and what a car with five beams sees in it.
 //!
-//! It is made of `controller-core`'s arithmetic only, so every machine sees the same bits.
+//! It is made of `controller-core`'s arithmetic only, so every machine, and every lane of a wide one, sees the
+//! same bits.
 
 use controller_core::controller::Command;
 use controller_core::geometry::{Body, Disc, Ray, Segment};
+use controller_core::lane::Lane;
 use controller_core::motion::Pose;
 use controller_core::observation::{BEAMS, BeamMount, Echo};
 use controller_core::trig::sin_cos;
@@ -21,16 +23,17 @@ const BODY: Body<f32> = Body { rear: -0.35, front: 0.05, half_width: 0.1 };
 const RECTANGLES: [[f32; 4]; 4] =
     [[0.0, 0.0, 10.0, 10.0], [2.0, 2.0, 3.0, 4.0], [5.0, 1.0, 6.0, 3.0], [7.0, 5.0, 9.0, 6.0]];
 
-const TARGET: Disc<f32> = Disc { centre: (4.0, 7.0), radius: 0.4 };
+/// The target.
+pub const TARGET: Disc<f32> = Disc { centre: (4.0, 7.0), radius: 0.4 };
 
 /// Steps after which the car is put elsewhere, so that a circling one still sees the room.
-const STEPS_PER_START: u32 = 40;
+pub const STEPS_PER_START: u32 = 40;
 
-/// Where the car is put in turn: metres, metres, radians.
+/// Where the car is put in turn on a tour: metres, metres, radians.
 const STARTS: [(f32, f32, f32); 5] =
     [(1.0, 1.0, 0.8), (8.5, 8.5, -2.4), (1.0, 8.0, -0.3), (8.5, 2.0, 2.0), (4.2, 4.8, 1.5)];
 
-/// Where the car is put before this step, if it is put anywhere.
+/// Where a tour puts the car before this step, if it is put anywhere.
 pub fn start(step: u32) -> Option<Pose<f32>> {
     let turn = step.is_multiple_of(STEPS_PER_START).then_some(step / STEPS_PER_START)?;
     let (x, y, heading) = *STARTS.get(turn as usize % STARTS.len())?;
@@ -48,29 +51,60 @@ pub fn mounts() -> [BeamMount; BEAMS] {
 
 /// What beams of this range in metres report at this pose.
 pub fn look(pose: &Pose<f32>, mounts: &[BeamMount; BEAMS], range: f32) -> [Option<Echo>; BEAMS] {
+    distances(pose, mounts).map(|(wall, target)| Some(echo(wall, target, range)))
+}
+
+/// How far each beam goes to the nearest wall and to the target, metres; infinity where there is none.
+pub fn distances<L: Lane>(pose: &Pose<L>, mounts: &[BeamMount; BEAMS]) -> [(L, L); BEAMS] {
     mounts.map(|mount| {
-        let (sin, cos) = sin_cos(pose.heading + mount.angle);
-        let ray = Ray { origin: pose.to_world(mount.x, mount.y), direction: (cos, sin) };
-        let wall = walls().map(|wall| ray.to_segment(&wall)).fold(f32::INFINITY, f32::min);
-        let target = ray.to_disc(&TARGET);
-        Some(match (wall, target) {
-            _ if wall.min(target) > range => Echo::Nothing,
-            _ if target < wall => Echo::Target(target),
-            _ => Echo::Wall(wall),
-        })
+        let (sin, cos) = sin_cos(pose.heading + L::from(mount.angle));
+        let origin = pose.to_world(L::from(mount.x), L::from(mount.y));
+        let ray = Ray { origin, direction: (cos, sin) };
+        let mut nearest = L::from(f32::INFINITY);
+        for wall in walls() {
+            nearest = ray.to_segment(&wall).min(nearest);
+        }
+        let (x, y) = TARGET.centre;
+        let target = Disc { centre: (L::from(x), L::from(y)), radius: L::from(TARGET.radius) };
+        (nearest, ray.to_disc(&target))
     })
+}
+
+/// What a beam of this range reports that meets a wall and the target at these distances, metres.
+pub fn echo(wall: f32, target: f32, range: f32) -> Echo {
+    match (wall, target) {
+        _ if range < wall && range < target => Echo::Nothing,
+        _ if target < wall => Echo::Target(target),
+        _ => Echo::Wall(wall),
+    }
 }
 
 /// Where the car is after one step; a blocked car turns but does not move.
 pub fn drive(pose: &Pose<f32>, command: Command, wheelbase: f32) -> Pose<f32> {
-    let next = pose.driven(command.steer.radians(), command.step.metres(), wheelbase);
-    if walls().any(|wall| BODY.touches_segment(&next, &wall)) { next.held_at(pose) } else { next }
+    drive_lanes(pose, command.steer.radians(), command.step.metres(), wheelbase)
 }
 
-fn walls() -> impl Iterator<Item = Segment<f32>> {
+/// The same for every lane: steer angles in radians, steps and wheelbase in metres.
+pub fn drive_lanes<L: Lane>(pose: &Pose<L>, steer: L, step: L, wheelbase: f32) -> Pose<L> {
+    let next = pose.driven(steer, step, L::from(wheelbase));
+    let body = Body {
+        rear: L::from(BODY.rear),
+        front: L::from(BODY.front),
+        half_width: L::from(BODY.half_width),
+    };
+    let mut blocked = L::from(0.0).lt(L::from(0.0));
+    for wall in walls() {
+        blocked = blocked | body.touches_segment(&next, &wall);
+    }
+    let (x, y) = (L::select(blocked, pose.x, next.x), L::select(blocked, pose.y, next.y));
+    Pose { x, y, ..next }
+}
+
+fn walls<L: Lane>() -> impl Iterator<Item = Segment<L>> {
     RECTANGLES.into_iter().flat_map(|[x0, y0, x1, y1]| {
-        let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)];
-        [0, 1, 2, 3].map(|side| Segment { a: corners[side], b: corners[(side + 1) % 4] })
+        let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(L::from);
+        let (a, b, c, d) = ((x0, y0), (x1, y0), (x1, y1), (x0, y1));
+        [(a, b), (b, c), (c, d), (d, a)].map(|(a, b)| Segment { a, b })
     })
 }
 
