@@ -260,6 +260,10 @@ mod tests {
             let table = format!("[target.{}]\nrunner = \"cargo xtask qemu\"", board.triple);
             assert!(config.contains(&table), "no runner for {}", board.triple);
         }
+        for Real { program, .. } in REAL {
+            let table = format!("[target.{}]\nrunner = \"probe-rs run ", program.triple);
+            assert!(config.contains(&table), "no runner for {}", program.triple);
+        }
     }
 
     #[test]

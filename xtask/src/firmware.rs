@@ -7,7 +7,7 @@ use crate::boards::{self, Board, Program};
 use crate::failure::Failure;
 use crate::options::Options;
 use crate::process;
-use crate::targets::Toolchain;
+use crate::targets::{self, Toolchain};
 
 /// `cargo xtask build`: the only lines on standard output are the programs' paths.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
@@ -55,7 +55,8 @@ pub(crate) fn command(verb: &str, program: &Program, toolchain: Toolchain) -> Co
         // There a jump through a table looks like a call through a pointer, and the stack would have no bound.
         flags.push("-Cjump-tables=no".into());
     }
-    command.args(["--config", &format!("target.{}.rustflags={flags:?}", program.triple)]);
+    let flags = targets::setting(program.triple, "rustflags", &format!("{flags:?}"));
+    command.args(["--config", &flags]);
     command.args(["--quiet", "--profile", "firmware", "--package", "firmware-example"]);
     command.args(["--features", &program.feature(), "--bin", program.name]);
     command

@@ -75,8 +75,7 @@ impl Toolchain {
             }
             Self::Debian => {
                 let program = if verb == "clippy" { DEBIAN_CLIPPY } else { DEBIAN_CARGO };
-                let linker =
-                    format!("CARGO_TARGET_{}_LINKER", triple.to_uppercase().replace('-', "_"));
+                let linker = setting(triple, "linker", &format!("{DEBIAN_LINKER:?}"));
                 command = Command::new(program);
                 command
                     .current_dir(process::root())
@@ -84,9 +83,8 @@ impl Toolchain {
                     .env("CARGO", DEBIAN_CARGO)
                     .env("RUSTC", DEBIAN_RUSTC)
                     .env("RUSTC_BOOTSTRAP", "1")
-                    .env(linker, DEBIAN_LINKER)
                     .env_remove("RUSTUP_TOOLCHAIN")
-                    .args([verb, "-Zbuild-std=core"]);
+                    .args([verb, "-Zbuild-std=core", "--config", &linker]);
             }
         }
         command.args(["--target", triple, "--target-dir"]).arg(self.target_dir());
@@ -111,6 +109,12 @@ impl Toolchain {
             Self::Debian => process::output(Command::new(DEBIAN_RUSTC).arg("--version")),
         }
     }
+}
+
+/// A setting of cargo's for one target, as its `--config` takes it. A dot in the name stands as it is: cargo looks it
+/// up as one more level.
+pub(crate) fn setting(triple: &str, key: &str, value: &str) -> String {
+    format!("target.{triple}.{key}={value}")
 }
 
 /// The compiler cargo would call here.
