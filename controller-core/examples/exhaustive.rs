@@ -5,19 +5,11 @@
 //! default. The reference is `libm::tanh` in double precision. Exit code 1 if a hash is not the
 //! recorded one: then this machine, or this release, computes other bits.
 
+use controller_core::activation::digest::{mixed, recorded};
 use controller_core::activation::{Activation, ActivationKind};
 use std::ops::RangeInclusive;
 use std::process::ExitCode;
 use std::time::Instant;
-
-/// The hash of each tanh, the same on every machine.
-fn recorded_hash(kind: ActivationKind) -> u64 {
-    match kind {
-        ActivationKind::Rational => 0x6d7c_4c7f_fae6_d8a1,
-        ActivationKind::Libm => 0xc0ea_d866_5cfc_7426,
-        ActivationKind::Micromath => 0xc8de_85c1_17c0_6d0f,
-    }
-}
 
 /// What walking a range of bit patterns showed; two adjacent ranges add up.
 #[derive(Clone, Copy, Default)]
@@ -70,18 +62,6 @@ fn apply(activation: impl Activation, x: f32) -> f32 {
     activation.apply(&mut sums);
     let [y] = sums;
     y
-}
-
-/// The 64 bits of an input and its result, mixed (the finaliser of MurmurHash3). Every NaN
-/// counts as the canonical one.
-fn mixed(x: u32, y: f32) -> u64 {
-    let y = if y.is_nan() { 0x7fc0_0000 } else { y.to_bits() };
-    let mut mixed = u64::from(x) << 32 | u64::from(y);
-    mixed ^= mixed >> 33;
-    mixed = mixed.wrapping_mul(0xff51_afd7_ed55_8ccd);
-    mixed ^= mixed >> 33;
-    mixed = mixed.wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-    mixed ^ mixed >> 33
 }
 
 /// 1 / spacing of `f32` around a value: 2^(23 − exponent), the exponent at least −126.
@@ -152,7 +132,7 @@ fn report(activation: impl Activation + Send + Sync) -> bool {
     println!("  worst error  {:.3e} at {:e}", found.absolute, found.absolute_at);
     println!("  falls        {}, the deepest {:e}", found.falls, found.deepest);
     println!("  broken       {} (outside ±1, or NaN on one side only)", found.broken);
-    let recorded = recorded_hash(activation.kind());
+    let recorded = recorded(activation.kind());
     let verdict = if found.hash == recorded { "as recorded" } else { "NOT the recorded one" };
     println!("  hash         {:016x}, {verdict}", found.hash);
     found.broken == 0 && found.hash == recorded

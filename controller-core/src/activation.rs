@@ -11,6 +11,8 @@
 //! all 2³² inputs; the tests walk a stride of it. NaN gives NaN in all three, and no result
 //! leaves `-1.0..=1.0`.
 
+pub mod digest;
+
 use crate::lane::Lane;
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +31,9 @@ pub enum ActivationKind {
 
 /// Something that can pass sums through a tanh.
 pub trait Activation: Copy {
+    /// Whether it is a few instructions in a row, without branches or calls.
+    const BRANCH_FREE: bool;
+
     /// The kind recorded in the weight blob.
     fn kind(self) -> ActivationKind;
 
@@ -107,8 +112,10 @@ impl Micromath {
 }
 
 macro_rules! activation {
-    ($($name:ident),*) => {$(
+    ($($name:ident: $branch_free:literal),*) => {$(
         impl Activation for $name {
+            const BRANCH_FREE: bool = $branch_free;
+
             fn kind(self) -> ActivationKind {
                 ActivationKind::$name
             }
@@ -122,10 +129,12 @@ macro_rules! activation {
         }
     )*};
 }
-activation!(Rational, Libm, Micromath);
+activation!(Rational: true, Libm: false, Micromath: false);
 
 /// Chosen at run time; a device that knows its kind uses the type instead and links one tanh.
 impl Activation for ActivationKind {
+    const BRANCH_FREE: bool = false;
+
     fn kind(self) -> ActivationKind {
         self
     }

@@ -233,9 +233,9 @@ impl<R: Recurrence, const I: usize, const H: usize, const O: usize> Network<'_, 
     /// [`Self::step`] for one robot, compiled once: a device's self-test then runs the very
     /// instructions that will drive.
     #[inline(never)]
-    pub fn step_alone(
+    pub fn step_alone<A: Activation>(
         &self,
-        activation: impl Activation,
+        activation: A,
         state: &mut State<f32, H>,
         input: &[f32; I],
     ) -> [f32; O] {
@@ -246,8 +246,8 @@ impl<R: Recurrence, const I: usize, const H: usize, const O: usize> Network<'_, 
             output: self.output.with_bias(),
             ..*self
         };
-        // A host has vector registers for a whole layer.
-        if cfg!(target_os = "none") {
+        // A host has vector registers for a whole layer; calls of a tanh would empty the registers.
+        if cfg!(target_os = "none") && A::BRANCH_FREE {
             with_biases.step_by::<ON_A_BOARD, f32>(activation, state, input)
         } else {
             with_biases.step_by::<H, f32>(activation, state, input)

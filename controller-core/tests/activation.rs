@@ -1,6 +1,7 @@
 //! The three tanh over a stride of all f32, against tanh in double precision.
 
-use controller_core::activation::{Activation, ActivationKind, tanh};
+use controller_core::activation::digest::{Inputs, of, of_lanes};
+use controller_core::activation::{Activation, ActivationKind, Libm, Micromath, Rational, tanh};
 use controller_core::lane::Lanes;
 
 /// Every 1021st bit pattern: 4.2 million inputs over all exponents and both signs.
@@ -69,4 +70,25 @@ fn recorded_bits_of_the_default_tanh() {
     let inputs = [0.0f32, 1e-30, 0.001, 0.1, 0.5, 1.0, 2.5, 8.0, 8.089_648, 1e30];
     let bits = inputs.map(|x| format!("{:08x}", tanh(x).to_bits()));
     insta::assert_compact_debug_snapshot!(bits);
+}
+
+#[test]
+fn hashes_over_a_sample_are_those_of_every_release_and_the_same_in_lanes() {
+    let hashes =
+        [of(Rational, Inputs::SAMPLE), of(Libm, Inputs::SAMPLE), of(Micromath, Inputs::SAMPLE)];
+    assert_eq!(hashes, [0xd316_49a9_2c70_0a3f, 0xe8cd_c5f6_f016_c0da, 0x7b44_69f5_6a4e_6266]);
+    assert_eq!(of_lanes::<16>(Rational, Inputs::SAMPLE), hashes[0]);
+}
+
+#[test]
+fn parts_of_the_inputs_meet_each_once_and_hash_to_the_same_sum() {
+    let inputs = Inputs { first: 5, stride: 0x1000_0001, count: 1000 };
+    let whole = of(Rational, inputs);
+    for parts in [1, 2, 3, 7] {
+        let sum = (0..parts).map(|part| of(Rational, inputs.part(part, parts)));
+        assert_eq!(sum.fold(0u64, u64::wrapping_add), whole, "{parts} parts");
+        assert_eq!(inputs.part(parts, parts).count, 0);
+    }
+    let count: u64 = (0..7).map(|part| Inputs::ALL.part(part, 7).count).sum();
+    assert_eq!(count, 1 << 32);
 }

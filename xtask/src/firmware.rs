@@ -46,8 +46,28 @@ pub(crate) fn build_program(program: &Program, options: &Options) -> Result<Path
     Ok(renamed)
 }
 
+/// Builds an example for a board and returns its path.
+pub(crate) fn build_example(
+    board: &Board,
+    example: &str,
+    options: &Options,
+) -> Result<PathBuf, Failure> {
+    let toolchain = Toolchain::find(options.targets, board.triple)?;
+    let mut command = package_command("build", &board.program(), toolchain);
+    process::run(command.args(["--example", example]))?;
+    let folder = toolchain.target_dir().join(board.triple).join("firmware");
+    Ok(folder.join("examples").join(example))
+}
+
 /// `cargo <verb>` for one board's program.
 pub(crate) fn command(verb: &str, program: &Program, toolchain: Toolchain) -> Command {
+    let mut command = package_command(verb, program, toolchain);
+    command.args(["--bin", program.name]);
+    command
+}
+
+/// `cargo <verb>` for the package, as it is for one board; which of its programs is still open.
+fn package_command(verb: &str, program: &Program, toolchain: Toolchain) -> Command {
     let mut command = toolchain.cargo(verb, program.triple);
     // Here and not in `.cargo/config.toml`: two boards share an instruction set but not a processor.
     let mut flags = vec![format!("-Ctarget-cpu={}", program.cpu)];
@@ -58,6 +78,6 @@ pub(crate) fn command(verb: &str, program: &Program, toolchain: Toolchain) -> Co
     let flags = targets::setting(program.triple, "rustflags", &format!("{flags:?}"));
     command.args(["--config", &flags]);
     command.args(["--quiet", "--profile", "firmware", "--package", "firmware-example"]);
-    command.args(["--features", &program.feature(), "--bin", program.name]);
+    command.args(["--features", &program.feature()]);
     command
 }

@@ -32,9 +32,12 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     ]))?;
     for program in boards::programs() {
         let toolchain = Toolchain::find(options.targets, program.triple)?;
-        process::run(
-            firmware::command("clippy", &program, toolchain).args(["--", "-D", "warnings"]),
-        )?;
+        process::run(firmware::command("clippy", &program, toolchain).args([
+            "--examples",
+            "--",
+            "-D",
+            "warnings",
+        ]))?;
     }
     process::run(
         process::cargo()

@@ -23,6 +23,7 @@ mod panics;
 mod process;
 mod qemu;
 mod size;
+mod speed;
 mod stack;
 mod targets;
 mod test;
@@ -87,8 +88,8 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "exhaustive",
-        arguments: "",
-        summary: "every f32 there is through every tanh; minutes, not part of test",
+        arguments: "[sample|rational|libm|micromath]…",
+        summary: "every f32 there is through every tanh, on host and board; minutes, not part of test",
         run: exhaustive::run,
     },
     Command {
@@ -102,6 +103,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[BOARD]…",
         summary: "the most stack each board's program can take, and on which path",
         run: stack::run,
+    },
+    Command {
+        name: "speed",
+        arguments: "",
+        summary: "instructions, flash and stack of a step on a Cortex-M4F; fails above the goals",
+        run: speed::run,
     },
     Command {
         name: "size",

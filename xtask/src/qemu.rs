@@ -79,6 +79,23 @@ fn emulate(
     }
 }
 
+/// Runs a program to its end and returns its log; `arguments` are options of `cargo xtask qemu`.
+pub(crate) fn log(board: &Board, elf: &Path, arguments: &[&str]) -> Result<String, Failure> {
+    tools::need_emulator(board)?;
+    let mut command = decoder("run");
+    command.args(["--", "qemu", "--board", board.name]).args(arguments).arg(elf);
+    let output = command
+        .stderr(std::process::Stdio::inherit())
+        .output()
+        .map_err(|error| Failure::failed(format!("cannot start cargo: {error}")))?;
+    let log = String::from_utf8_lossy(&output.stdout).into_owned();
+    if output.status.success() {
+        Ok(log)
+    } else {
+        Err(Failure::failed(format!("{} ended with {}:\n{log}", elf.display(), output.status)))
+    }
+}
+
 /// `cargo <verb>` for the xtask that has the log decoder, in a profile made for building it fast.
 pub(crate) fn decoder(verb: &str) -> std::process::Command {
     let mut command = crate::process::cargo();

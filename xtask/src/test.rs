@@ -7,12 +7,14 @@ use std::process::Stdio;
 use std::time::Instant;
 
 use crate::boards;
+use crate::exhaustive;
 use crate::failure::Failure;
 use crate::firmware;
 use crate::lint;
 use crate::options::Options;
 use crate::process;
 use crate::qemu;
+use crate::speed;
 use crate::tools;
 use tally::Tally;
 
@@ -24,6 +26,8 @@ const STEPS: &[Step] = &[
     ("tools are here", |options, _| tools::fetch_all(options)),
     ("lint", |options, _| lint::run(options)),
     ("boards build", |options, _| build_boards(options)),
+    ("instructions of a step", |options, _| speed::run(options)),
+    ("one tanh on host and board", |options, _| exhaustive::sample(options)),
     ("tests on the host and on the emulated boards", cargo_test),
 ];
 

@@ -1,13 +1,12 @@
 //! What is measured: functions that a board's program calls, through pointers, so that none is changed
 //! by where it is called from.
 
-use controller_core::activation::{Activation, Libm, Micromath, Rational};
+use controller_core::activation::{Activation, ActivationKind, Libm, Micromath, Rational};
 use controller_core::blob::Blob;
 use controller_core::control_loop::Decide;
 use controller_core::controller::{Command, Controller};
-use controller_core::network::{Network, Recurrence, State};
+use controller_core::network::{Network, Recurrence, RecurrenceKind, State};
 use controller_core::observation::{BEAMS, Echo, INPUTS, Reading};
-use core::fmt::Display;
 use core::hint::black_box;
 use firmware_example::brain::{HIDDEN, OUTPUTS};
 use firmware_example::recorded;
@@ -55,7 +54,7 @@ fn step_and_control<'a, R: Recurrence, A: Activation>(
         |input| _ = black_box(empty(&network, activation, &mut other, input)),
     )?;
     let weights = size_of_val(blob.weights());
-    report("network", &R::KIND, activation, &found, step as usize, weights);
+    report("network", name(R::KIND), activation, &found, step as usize, weights);
 
     let functions: [Control<'a, R, A>; 2] = [control_step, |_, _| Command::STOP];
     let [control, empty] = black_box(functions);
@@ -69,7 +68,7 @@ fn step_and_control<'a, R: Recurrence, A: Activation>(
         |echoes| _ = black_box(control(&mut car, echoes)),
         |echoes| _ = black_box(empty(&mut other, echoes)),
     )?;
-    report("control", &R::KIND, activation, &found, control as usize, weights);
+    report("control", name(R::KIND), activation, &found, control as usize, weights);
     Ok(())
 }
 
@@ -104,24 +103,37 @@ pub(crate) fn tanh<A: Activation>(counter: &Counter, activation: A) -> Result<()
         |input| run(apply, input),
         |input| run(empty, input),
     )?;
-    report("tanh", &"-", activation, &found, apply as usize, 0);
+    report("tanh", "-", activation, &found, apply as usize, 0);
     Ok(())
+}
+
+fn name(recurrence: RecurrenceKind) -> &'static str {
+    match recurrence {
+        RecurrenceKind::Feedforward => "feedforward",
+        RecurrenceKind::SelfLoop => "self",
+        RecurrenceKind::Elman => "elman",
+    }
 }
 
 fn report(
     what: &str,
-    recurrence: &dyn Display,
+    recurrence: &str,
     activation: impl Activation,
     found: &Measurement,
     code: usize,
     weights: usize,
 ) {
     let Measurement { min, max, sum, stack } = found;
+    let tanh_name = match activation.kind() {
+        ActivationKind::Rational => "rational",
+        ActivationKind::Libm => "libm",
+        ActivationKind::Micromath => "micromath",
+    };
     defmt::info!(
-        "{=str} {} {} min={=u32} max={=u32} sum={=u32} inputs={=u32} stack={=u32} code={=usize} state={=usize} weights={=usize}",
+        "{=str} {=str} {=str} min={=u32} max={=u32} sum={=u32} inputs={=u32} stack={=u32} code={=usize} state={=usize} weights={=usize}",
         what,
-        defmt::Display2Format(recurrence),
-        defmt::Display2Format(&activation.kind()),
+        recurrence,
+        tanh_name,
         *min,
         *max,
         *sum,
