@@ -7,7 +7,10 @@
 mod build;
 pub mod check;
 pub mod free_space;
+mod lookout;
 mod obstacles;
+mod packs;
+mod shape;
 
 use crate::map;
 use crate::scenario::Bounds;
@@ -15,8 +18,10 @@ use controller_core::geometry::{Body, Disc, Ray, Segment};
 use controller_core::motion::Pose;
 use parry2d::math::Vector;
 use parry2d::utils::point_in_poly2d;
+use std::sync::Arc;
 
 pub use build::{MAX_OUTLINE, WorldError};
+pub use lookout::{Eight, Fan, Lookout, Survey};
 pub use obstacles::Obstacles;
 
 /// Walls are lengthened by this much at both ends, metres, so that a beam aimed exactly at a
@@ -32,7 +37,7 @@ pub struct World {
     pub bounds: Bounds,
     /// Radius of the target disc, metres.
     pub target_radius: f32,
-    obstacles: Obstacles,
+    obstacles: Arc<Obstacles>,
     solids: Vec<Solid>,
     sheets: Vec<[f32; 4]>,
 }
@@ -56,6 +61,12 @@ impl World {
     #[inline]
     pub fn touches(&self, body: &Body<f32>, pose: &Pose<f32>) -> bool {
         self.obstacles.touch(body, pose)
+    }
+
+    /// The world as one car sees and touches it: quicker than [`Self::distance`] and
+    /// [`Self::touches`] for many poses, with the same bits.
+    pub fn lookout(&self, fan: Fan, body: Body<f32>) -> Lookout {
+        Lookout::new(Arc::clone(&self.obstacles), fan, body)
     }
 
     /// Whether an obstacle's edge lies between two points.

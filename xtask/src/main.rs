@@ -9,6 +9,7 @@
 //! | 124 | a board did not end within its time |
 
 mod apt;
+mod bench;
 mod boards;
 mod call_graph;
 mod doctor;
@@ -109,6 +110,12 @@ const COMMANDS: &[Command] = &[
         arguments: "",
         summary: "instructions, flash and stack of a step on a Cortex-M4F; fails above the goals",
         run: speed::run,
+    },
+    Command {
+        name: "bench",
+        arguments: "",
+        summary: "what a beam costs against the number of obstacles, on this machine",
+        run: bench::run,
     },
     Command {
         name: "size",

@@ -7,6 +7,7 @@ use controller_core::geometry::{Disc, Segment};
 use parry2d::math::Vector;
 use std::fmt;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Most straight pieces of a map's outline. A clean map of a building has thousands.
 pub const MAX_OUTLINE: usize = 1 << 20;
@@ -76,7 +77,7 @@ impl World {
         Ok(Self {
             bounds: spec.bounds,
             target_radius: spec.target_radius,
-            obstacles: super::Obstacles::new(parts.segments, parts.discs),
+            obstacles: Arc::new(super::Obstacles::new(parts.segments, parts.discs)),
             solids: parts.solids,
             sheets: parts.sheets,
         })

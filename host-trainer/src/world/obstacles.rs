@@ -4,15 +4,13 @@
 //! bounding-volume tree which to test. Both answer with the same bits, since each obstacle's
 //! distance comes from the same arithmetic and the nearest is a plain minimum.
 
+use super::packs::{self, DiscPack, WallPack};
+use super::shape::{Rect, Shape};
 use controller_core::geometry::{Body, Disc, Ray, Segment};
-use controller_core::lane::{Lane, Lanes};
 use controller_core::motion::Pose;
 use parry2d::bounding_volume::Aabb;
 use parry2d::math::Vector;
-use parry2d::partitioning::{Bvh, BvhBuildStrategy};
-
-/// Obstacles tested side by side.
-const WIDTH: usize = 8;
+use parry2d::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 
 /// Above this many obstacles the tree is faster than testing them all.
 const TREE_FROM: usize = 96;
@@ -20,9 +18,6 @@ const TREE_FROM: usize = 96;
 /// Boxes in the tree are at least this much larger than their obstacles, metres, so that
 /// rounding in the tree's own arithmetic never hides one.
 const MARGIN: f32 = 1.0e-3;
-
-/// Where a lane without an obstacle keeps its point: far outside every world.
-const NOWHERE: f32 = 1.0e9;
 
 /// The walls and discs of a world.
 #[derive(Debug)]
@@ -36,8 +31,8 @@ pub struct Obstacles {
 #[derive(Debug)]
 enum Search {
     All {
-        walls: Vec<Segment<Lanes<WIDTH>>>,
-        discs: Vec<Disc<Lanes<WIDTH>>>,
+        walls: Box<[WallPack]>,
+        discs: Box<[DiscPack]>,
     },
     /// Leaves are walls first, then discs.
     Tree {
@@ -71,34 +66,33 @@ impl Obstacles {
     /// `range`, if there is none within it.
     #[inline]
     pub fn distance(&self, ray: &Ray<f32>, range: f32) -> f32 {
-        match &self.search {
-            Search::All { walls, discs } => distance_to_all(ray, walls, discs),
-            Search::Tree { tree, margin } => self.distance_by_tree(tree, ray, range, *margin),
-        }
+        // Which zero is least depends on the order of walls; the sum is the positive one.
+        let distance = match &self.search {
+            Search::All { walls, discs } => packs::nearest_of_all(ray, walls, discs),
+            Search::Tree { tree, margin } => self.distance_by_tree(tree, ray, range + margin),
+        };
+        distance + 0.0
     }
 
-    fn distance_by_tree(&self, tree: &Bvh, ray: &Ray<f32>, range: f32, margin: f32) -> f32 {
-        let beam = parry2d::query::Ray::new(
-            Vector::new(ray.origin.0, ray.origin.1),
-            Vector::new(ray.direction.0, ray.direction.1),
-        );
-        let test = |leaf: u32, _: f32| {
+    /// Tests every obstacle whose box the beam meets, those behind a hit too: for a beam that
+    /// runs along a wall, rounding may compute the farther of two hits as the nearer.
+    fn distance_by_tree(&self, tree: &Bvh, ray: &Ray<f32>, range: f32) -> f32 {
+        let beam = Beam::new(ray, range);
+        let leaves = tree.leaves(|node| beam.meets(node));
+        leaves.fold(f32::INFINITY, |near, leaf| {
             let distance = match self.leaf(leaf) {
                 Leaf::Wall(wall) => ray.to_segment(wall),
                 Leaf::Disc(disc) => ray.to_disc(disc),
             };
-            distance.is_finite().then_some(distance)
-        };
-        // parry drops a hit exactly at the limit; an obstacle exactly at `range` is a hit for us.
-        let limit = range.next_up() + margin;
-        tree.cast_ray(&beam, limit, test).map_or(f32::INFINITY, |(_, distance)| distance)
+            distance.min(near)
+        })
     }
 
     /// Whether the body at this pose touches an obstacle's edge, or lies inside a disc.
     #[inline]
     pub fn touch(&self, body: &Body<f32>, pose: &Pose<f32>) -> bool {
         match &self.search {
-            Search::All { walls, discs } => any_touches(body, pose, walls, discs),
+            Search::All { walls, discs } => packs::any_touches(body, pose, walls, discs),
             Search::Tree { tree, .. } => {
                 tree.intersect_aabb(&body_box(body, pose)).any(|leaf| match self.leaf(leaf) {
                     Leaf::Wall(wall) => body.touches_segment(pose, wall),
@@ -128,6 +122,44 @@ impl Obstacles {
         }
     }
 
+    /// Calls `f` with the place and shape of every obstacle near a rectangle: of all within
+    /// `distance` metres of it, and perhaps of more.
+    ///
+    /// Places count walls first, then discs.
+    pub(super) fn each_near(&self, rect: &Rect, distance: f64, mut f: impl FnMut(u32, Shape)) {
+        let mut visit = |leaf: u32| match self.leaf(leaf) {
+            Leaf::Wall(wall) => f(leaf, Shape::from(wall)),
+            Leaf::Disc(disc) => f(leaf, Shape::from(disc)),
+        };
+        match &self.search {
+            Search::All { .. } => {
+                (0..(self.walls.len() + self.discs.len()) as u32).for_each(&mut visit);
+            }
+            Search::Tree { tree, margin } => {
+                let Rect { low, high } = rect.grown(distance + f64::from(*margin));
+                let point = |[x, y]: [f64; 2]| Vector::new(x as f32, y as f32);
+                tree.intersect_aabb(&Aabb::new(point(low), point(high))).for_each(&mut visit);
+            }
+        }
+    }
+
+    /// The smallest upright rectangle around all obstacles: its low and its high corner.
+    pub(super) fn bounds(&self) -> [[f32; 2]; 2] {
+        let boxes = self.walls.iter().map(wall_box).chain(self.discs.iter().map(disc_box));
+        let around =
+            boxes.reduce(|a, b| [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]);
+        let [x0, y0, x1, y1] = around.unwrap_or_default();
+        [[x0, y0], [x1, y1]]
+    }
+
+    /// How far apart the ends of walls that meet may lie, metres: both are lengthened there, by
+    /// `super::CORNER_OVERLAP` or by 8 units in the last place of the largest number in play.
+    pub(super) fn joint(&self, range: f32) -> f32 {
+        let numbers = self.bounds().into_iter().flatten();
+        let largest = numbers.map(f32::abs).fold(range, f32::max);
+        2.5 * super::CORNER_OVERLAP.max(8.0 * f32::EPSILON * largest)
+    }
+
     fn leaf(&self, leaf: u32) -> Leaf<'_> {
         let leaf = leaf as usize;
         match self.walls.get(leaf) {
@@ -144,15 +176,7 @@ enum Leaf<'a> {
 
 impl Search {
     fn all(walls: &[Segment<f32>], discs: &[Disc<f32>]) -> Self {
-        let walls = walls.chunks(WIDTH).map(|chunk| Segment {
-            a: (lanes(chunk, NOWHERE, |s| s.a.0), lanes(chunk, NOWHERE, |s| s.a.1)),
-            b: (lanes(chunk, NOWHERE, |s| s.b.0), lanes(chunk, NOWHERE, |s| s.b.1)),
-        });
-        let discs = discs.chunks(WIDTH).map(|chunk| Disc {
-            centre: (lanes(chunk, NOWHERE, |d| d.centre.0), lanes(chunk, NOWHERE, |d| d.centre.1)),
-            radius: lanes(chunk, 0.0, |d| d.radius),
-        });
-        Self::All { walls: walls.collect(), discs: discs.collect() }
+        Self::All { walls: WallPack::all(walls), discs: DiscPack::all(discs) }
     }
 
     fn tree(walls: &[Segment<f32>], discs: &[Disc<f32>]) -> Self {
@@ -173,49 +197,37 @@ impl Search {
     }
 }
 
-#[inline]
-fn distance_to_all(
-    ray: &Ray<f32>,
-    walls: &[Segment<Lanes<WIDTH>>],
-    discs: &[Disc<Lanes<WIDTH>>],
-) -> f32 {
-    let splat = |(x, y): (f32, f32)| (Lanes::from(x), Lanes::from(y));
-    let wide = Ray { origin: splat(ray.origin), direction: splat(ray.direction) };
-    let mut nearest = Lanes::from(f32::INFINITY);
-    for pack in walls {
-        nearest = wide.to_segment(pack).min(nearest);
-    }
-    for pack in discs {
-        nearest = wide.to_disc(pack).min(nearest);
-    }
-    nearest.0.into_iter().fold(f32::INFINITY, |a, b| if b < a { b } else { a })
+/// A stretch of a ray, for the boxes of the tree.
+struct Beam {
+    middle: (f32, f32),
+    half: (f32, f32),
+    direction: (f32, f32),
 }
 
-#[inline]
-fn any_touches(
-    body: &Body<f32>,
-    pose: &Pose<f32>,
-    walls: &[Segment<Lanes<WIDTH>>],
-    discs: &[Disc<Lanes<WIDTH>>],
-) -> bool {
-    let body = Body {
-        rear: Lanes::from(body.rear),
-        front: Lanes::from(body.front),
-        half_width: Lanes::from(body.half_width),
-    };
-    let pose = Pose {
-        x: Lanes::from(pose.x),
-        y: Lanes::from(pose.y),
-        heading: Lanes::from(pose.heading),
-        cos: Lanes::from(pose.cos),
-        sin: Lanes::from(pose.sin),
-    };
-    walls.iter().any(|pack| body.touches_segment(&pose, pack).any())
-        || discs.iter().any(|pack| body.touches_disc(&pose, pack).any())
-}
+impl Beam {
+    fn new(ray: &Ray<f32>, range: f32) -> Self {
+        let ((x, y), (dx, dy)) = (ray.origin, ray.direction);
+        // Past these numbers nothing is a distance any more.
+        let reach = range.min(1.0e18) * 0.5;
+        Self {
+            middle: (x + dx * reach, y + dy * reach),
+            half: (dx.abs() * reach, dy.abs() * reach),
+            direction: (dx, dy),
+        }
+    }
 
-fn lanes<T>(chunk: &[T], absent: f32, f: fn(&T) -> f32) -> Lanes<WIDTH> {
-    Lanes(std::array::from_fn(|lane| chunk.get(lane).map_or(absent, f)))
+    /// Separating axes of a box and the stretch.
+    #[inline]
+    fn meets(&self, node: &BvhNode) -> bool {
+        let (low, high) = (node.mins(), node.maxs());
+        let half = ((high.x - low.x) * 0.5, (high.y - low.y) * 0.5);
+        let apart =
+            ((low.x + high.x) * 0.5 - self.middle.0, (low.y + high.y) * 0.5 - self.middle.1);
+        let (dx, dy) = self.direction;
+        apart.0.abs() <= half.0 + self.half.0
+            && apart.1.abs() <= half.1 + self.half.1
+            && (apart.0 * dy - apart.1 * dx).abs() <= half.0 * dy.abs() + half.1 * dx.abs()
+    }
 }
 
 /// Distance from a point to a wall.

@@ -7,6 +7,7 @@ mod corners;
 mod driving;
 mod episodes;
 mod fingerprint;
+mod lookout;
 mod pairs;
 mod parry;
 mod training;

@@ -1,0 +1,265 @@
+//! What a car sees and touches through a lookout, bit by bit what a test of every single
+//! obstacle says.
+
+use crate::worlds::{PAPER, random, random_pose, shipped, world_of};
+use controller_core::geometry::{Body, Disc, Ray, Segment};
+use controller_core::lane::Lanes;
+use controller_core::motion::Pose;
+use controller_core::observation::{BEAMS, BeamMount};
+use host_trainer::car::body_of;
+use host_trainer::seed::Stream;
+use host_trainer::world::{Fan, Lookout, Obstacles};
+use proptest::prelude::*;
+use std::f32::consts::{PI, TAU};
+use std::sync::Arc;
+
+const BODY: Body<f32> = Body { rear: -0.35, front: 0.05, half_width: 0.1 };
+
+/// Every obstacle for itself, with nothing but the arithmetic of the core.
+struct OneByOne {
+    walls: Vec<Segment<f32>>,
+    discs: Vec<Disc<f32>>,
+}
+
+impl OneByOne {
+    fn distance(&self, ray: &Ray<f32>, range: f32) -> f32 {
+        let to_walls = self.walls.iter().map(|wall| ray.to_segment(wall));
+        let to_discs = self.discs.iter().map(|disc| ray.to_disc(disc));
+        let nearest = to_walls.chain(to_discs).fold(f32::INFINITY, f32::min);
+        // Either zero may be the least of two; distances have the positive one.
+        if nearest <= range { nearest + 0.0 } else { f32::INFINITY }
+    }
+
+    fn touches(&self, body: &Body<f32>, pose: &Pose<f32>) -> bool {
+        self.walls.iter().any(|wall| body.touches_segment(pose, wall))
+            || self.discs.iter().any(|disc| body.touches_disc(pose, disc))
+    }
+}
+
+/// A lookout beside the obstacles it is made of.
+struct Pair {
+    lookout: Lookout,
+    truth: OneByOne,
+    fan: Fan,
+    body: Body<f32>,
+    seen: usize,
+    touched: usize,
+}
+
+impl Pair {
+    fn new(walls: Vec<Segment<f32>>, discs: Vec<Disc<f32>>, fan: Fan, body: Body<f32>) -> Self {
+        let obstacles = Arc::new(Obstacles::new(walls.clone(), discs.clone()));
+        let lookout = Lookout::new(obstacles, fan.clone(), body).eager();
+        Self { lookout, truth: OneByOne { walls, discs }, fan, body, seen: 0, touched: 0 }
+    }
+
+    fn compare(&mut self, pose: &Pose<f32>) {
+        let seen = self.lookout.fan::<Lanes<8>>(pose);
+        for (beam, (ray, seen)) in self.fan.rays(pose).iter().zip(seen).enumerate() {
+            let expected = self.truth.distance(ray, self.fan.range());
+            let same = seen.to_bits() == expected.to_bits();
+            assert!(same, "beam {beam} at {pose:?} sees {seen}, not {expected}");
+            self.seen += usize::from(seen.is_finite());
+        }
+        let touched = self.lookout.touches(pose);
+        assert_eq!(touched, self.truth.touches(&self.body, pose), "touch at {pose:?}");
+        self.touched += usize::from(touched);
+    }
+}
+
+fn mounts(degrees: [f32; BEAMS]) -> [BeamMount; BEAMS] {
+    degrees.map(|degrees| BeamMount { x: 0.0, y: 0.0, angle: degrees.to_radians() })
+}
+
+const USUAL: [f32; BEAMS] = [-30.0, -15.0, 0.0, 15.0, 30.0];
+
+#[test]
+fn in_every_shipped_world_a_lookout_sees_and_feels_what_every_obstacle_says() {
+    let scenes = ["depot", "tb3_sandbox", "barn_000", "barn_264", "medium_maze"];
+    for name in PAPER.into_iter().chain(scenes) {
+        let scenario = shipped(name);
+        let world = world_of(&scenario);
+        let fan = Fan::new(&scenario.sensors.beams, scenario.sensors.range);
+        let (walls, discs) = (world.segments().to_vec(), world.discs().to_vec());
+        let poses = 1_600;
+        let mut pair = Pair::new(walls, discs, fan, body_of(&scenario.vehicle));
+        let mut random = random(71);
+        // Many poses in each of a few places, so that cells are used as well as made.
+        for _ in 0..poses / 40 {
+            let Pose { x, y, .. } = random_pose(&world, &mut random);
+            for _ in 0..40 {
+                let mut near = || random.within(-0.1, 0.1);
+                let (x, y) = (x + near(), y + near());
+                pair.compare(&Pose::new(x, y, random.within(-PI, PI)));
+            }
+        }
+        let cells = pair.lookout.survey().seen.len();
+        println!("{name}: {} beams met something, {} touches", pair.seen, pair.touched);
+        assert!(pair.seen > poses && pair.touched > 0 && cells > 100, "{name}");
+    }
+}
+
+/// Points, sizes and directions that come out exact more often than chance would have it.
+struct Scene {
+    stream: Stream,
+    size: f32,
+    offset: (f32, f32),
+}
+
+impl Scene {
+    fn place(&mut self) -> (f32, f32) {
+        let mut coordinate = |offset: f32| {
+            let value = self.stream.within(0.0, self.size);
+            // On a coarse lattice, on the borders of cells, or anywhere.
+            let step = [self.size / 8.0, 0.175, 0.0][self.stream.index(3)];
+            offset + if step > 0.0 { (value / step).round() * step } else { value }
+        };
+        (coordinate(self.offset.0), coordinate(self.offset.1))
+    }
+
+    /// Walls of a closed outline, lengthened as in a world, or not.
+    fn outline(&mut self, corners: &[(f32, f32)], walls: &mut Vec<Segment<f32>>) {
+        let lengthened = self.stream.chance(0.7);
+        let next = corners.iter().cycle().skip(1);
+        for (a, b) in corners.iter().zip(next) {
+            let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+            let length = libm::hypotf(dx, dy);
+            if length == 0.0 {
+                continue;
+            }
+            let largest = [a.0, a.1, b.0, b.1].into_iter().map(f32::abs).fold(10.0, f32::max);
+            let by =
+                if lengthened { 1e-5_f32.max(8.0 * f32::EPSILON * largest) / length } else { 0.0 };
+            let (ux, uy) = (dx * by, dy * by);
+            walls.push(Segment { a: (a.0 - ux, a.1 - uy), b: (b.0 + ux, b.1 + uy) });
+        }
+    }
+
+    fn walls(&mut self) -> Vec<Segment<f32>> {
+        let mut walls = Vec::new();
+        for _ in 0..2 + self.stream.index(8) {
+            let (x, y) = self.place();
+            let (w, h) = (
+                self.stream.within(0.0, self.size * 0.2),
+                self.stream.within(0.0, self.size * 0.2),
+            );
+            match self.stream.index(5) {
+                0 => self.outline(&[(x, y), (x + w, y), (x + w, y + h), (x, y + h)], &mut walls),
+                1 => {
+                    let turn = self.stream.within(0.0, TAU);
+                    let count = 3 + self.stream.index(9);
+                    let corner = |index: usize| {
+                        let angle = turn + TAU * index as f32 / count as f32;
+                        (x + w * libm::cosf(angle), y + w * libm::sinf(angle))
+                    };
+                    let corners: Vec<_> = (0..count).map(corner).collect();
+                    self.outline(&corners, &mut walls);
+                }
+                2 => {
+                    // One straight wall in pieces.
+                    let pieces = 1 + self.stream.index(12);
+                    let at = |i: usize| {
+                        let share = i as f32 / pieces as f32;
+                        (x + w * share, y + h * share)
+                    };
+                    for piece in 0..pieces {
+                        walls.push(Segment { a: at(piece), b: at(piece + 1) });
+                    }
+                }
+                3 => walls.push(Segment { a: (x, y), b: self.place() }),
+                _ => {
+                    let (a, b) = (self.place(), self.place());
+                    walls.extend([Segment { a: (x, y), b: a }, Segment { a, b }]);
+                }
+            }
+        }
+        walls
+    }
+
+    fn discs(&mut self) -> Vec<Disc<f32>> {
+        let count = self.stream.index(4);
+        (0..count)
+            .map(|_| Disc {
+                centre: self.place(),
+                radius: self.stream.within(0.0, self.size * 0.1),
+            })
+            .collect()
+    }
+
+    /// A pose from which one beam goes exactly through a wall's end, along a wall, across a
+    /// corner, or anywhere; positions and headings often lie exactly on borders.
+    fn pose(&mut self, walls: &[Segment<f32>], mounts: &[BeamMount; BEAMS]) -> Pose<f32> {
+        let wall = walls[self.stream.index(walls.len())];
+        let mount = mounts[self.stream.index(BEAMS)];
+        let (mut x, mut y) = self.place();
+        let (dx, dy) = (wall.b.0 - wall.a.0, wall.b.1 - wall.a.1);
+        let heading = match self.stream.index(5) {
+            0 => self.stream.within(-PI, PI),
+            1 => (self.stream.within(-8.5, 8.5)).round() * (PI / 8.0),
+            2 => {
+                // Half a sector off.
+                (self.stream.within(-8.5, 8.5).round() + 0.5) * (PI / 8.0)
+            }
+            3 => libm::atan2f(wall.a.1 - y, wall.a.0 - x) - mount.angle,
+            _ => {
+                let beyond = self.stream.within(0.0, 3.0);
+                (x, y) = (wall.a.0 - dx * beyond, wall.a.1 - dy * beyond);
+                libm::atan2f(dy, dx) - mount.angle
+            }
+        };
+        let nudge = |value: f32, by: usize| match by {
+            0 => value.next_up(),
+            1 => value.next_down(),
+            _ => value,
+        };
+        x = nudge(x, self.stream.index(6));
+        let heading = nudge(heading, self.stream.index(6));
+        Pose::new(x, y, heading)
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100, ..ProptestConfig::default() })]
+
+    #[test]
+    fn in_any_scene_a_lookout_sees_and_feels_what_every_obstacle_says(
+        seed: u64,
+        size in prop_oneof![Just(10.0_f32), 0.01_f32..3.0, 3.0_f32..60.0, 60.0_f32..3000.0],
+        far in prop_oneof![Just(0.0_f32), -20_000.0_f32..20_000.0],
+        range in prop_oneof![Just(10.0_f32), 0.1_f32..80.0],
+        degrees in prop_oneof![
+            Just(USUAL),
+            Just([-90.0, -45.0, 0.0, 45.0, 90.0]),
+            Just([0.0, 0.0, 72.0, 144.0, -144.0]),
+        ],
+        offset in prop_oneof![Just((0.0_f32, 0.0_f32)), (-0.4_f32..0.4, -0.2_f32..0.2)],
+    ) {
+        let mut scene = Scene { stream: random(seed), size, offset: (far, -0.5 * far) };
+        let (walls, discs) = (scene.walls(), scene.discs());
+        let mut mounts = mounts(degrees);
+        mounts[0].x = offset.0;
+        mounts[3].x = 0.5 * offset.0;
+        mounts[4].y = offset.1;
+        let mut pair = Pair::new(walls.clone(), discs, Fan::new(&mounts, range), BODY);
+        for _ in 0..80 {
+            let pose = scene.pose(&walls, &mounts);
+            pair.compare(&pose);
+        }
+    }
+}
+
+#[test]
+fn a_pose_outside_of_every_cell_or_not_a_number_is_answered_like_any_other() {
+    let walls = vec![Segment { a: (0.0, 0.0), b: (1.0, 0.0) }];
+    let mut pair = Pair::new(walls, Vec::new(), Fan::new(&mounts(USUAL), 10.0), BODY);
+    for (x, y, heading) in [(-5.0, -5.0, 0.8), (0.5, 5.0, -1.6), (1e9, -1e9, 0.0), (0.5, 0.3, -1.5)]
+    {
+        pair.compare(&Pose::new(x, y, heading));
+    }
+    assert!(pair.seen > 3);
+    for lost in [f32::NAN, f32::INFINITY] {
+        let pose = Pose::new(lost, 0.0, 0.0);
+        assert_eq!(pair.lookout.fan::<Lanes<8>>(&pose), [f32::INFINITY; BEAMS]);
+        assert!(!pair.lookout.touches(&pose));
+    }
+}
