@@ -21,8 +21,30 @@
 /// assert_eq!(Fault::Silent { beam: 3 }.to_string(), "beam 3 is silent");
 /// assert_eq!(Fault::Off.to_string(), "no power");
 /// ```
+///
+/// For a type with parameters, each of which has sentences of its own: `impl<E> Fault<E> { … }`.
 #[macro_export]
 macro_rules! sentences {
+    (impl<$($parameter:ident),+> $type:ty {
+        $($pattern:pat => $text:literal $(, $value:expr)*;)+
+    }) => {
+        impl<$($parameter: ::core::fmt::Display),+> ::core::fmt::Display for $type {
+            fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                match self {
+                    $($pattern => ::core::write!(f, $text $(, $value)*),)+
+                }
+            }
+        }
+
+        #[cfg(feature = "defmt")]
+        impl<$($parameter: defmt::Format),+> defmt::Format for $type {
+            fn format(&self, f: defmt::Formatter<'_>) {
+                match self {
+                    $($pattern => defmt::write!(f, $text $(, $value)*),)+
+                }
+            }
+        }
+    };
     ($type:ty { $($pattern:pat => $text:literal $(, $value:expr)*;)+ }) => {
         impl ::core::fmt::Display for $type {
             fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {

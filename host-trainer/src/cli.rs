@@ -1,6 +1,6 @@
 //! The command line: what was typed, and the exit code it ends in.
 
-use crate::commands::{evaluate, export, inspect, replay, scenario, train};
+use crate::commands::{evaluate, export, inspect, replay, scenario, train, verify};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::signals::{self, StopFlag};
@@ -24,6 +24,7 @@ enum Command {
     Scenario(scenario::ScenarioArgs),
     Export(export::ExportArgs),
     Inspect(inspect::InspectArgs),
+    Verify(verify::VerifyArgs),
 }
 
 impl Command {
@@ -35,6 +36,7 @@ impl Command {
             Self::Scenario(args) => args.wants_json(),
             Self::Export(args) => args.json,
             Self::Inspect(args) => args.json,
+            Self::Verify(args) => args.json,
         }
     }
 
@@ -48,6 +50,7 @@ impl Command {
             Self::Scenario(args) => scenario::run(args, output),
             Self::Export(args) => export::run(args, output),
             Self::Inspect(args) => inspect::run(args, output),
+            Self::Verify(args) => verify::run(args, output),
         }
     }
 }

@@ -10,3 +10,4 @@ pub mod replay;
 pub mod scenario;
 mod setup;
 pub mod train;
+pub mod verify;

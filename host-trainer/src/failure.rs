@@ -13,6 +13,8 @@ pub struct Failure {
 /// What kind of thing went wrong; decides the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FailureKind {
+    /// What had to be equal is not: 1.
+    Different,
     /// The user's files or options do not make sense: 2.
     BadInput,
     /// Reading or writing failed: 3.
@@ -48,9 +50,10 @@ impl Failure {
         self.kind
     }
 
-    /// The process's exit code (SPEC: 2 bad input, 3 input/output, 4 busy, 130/143 interrupted).
+    /// The process's exit code (1 different, 2 bad input, 3 input/output, 4 busy, 130/143 interrupted).
     pub fn exit_code(&self) -> u8 {
         match self.kind {
+            FailureKind::Different => 1,
             FailureKind::BadInput => 2,
             FailureKind::InputOutput => 3,
             FailureKind::Busy => 4,

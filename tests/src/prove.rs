@@ -1,7 +1,5 @@
 //! Drives every case of a file and writes down what came of it: the program of every machine in a proof.
 
-use core::fmt;
-
 use controller_core::blob::{Blob, BlobError};
 
 use crate::closed_loop::{ClosedLoop, Inspect};
@@ -47,16 +45,12 @@ pub enum ProofError<R, S, K> {
     },
 }
 
-impl<R: fmt::Display, S: fmt::Display, K: fmt::Display> fmt::Display for ProofError<R, S, K> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Cases(error) => write!(f, "cases refused: {error}"),
-            Self::Results(error) => write!(f, "results cannot be written: {error}"),
-            Self::Blob { case, error } => write!(f, "case {case}: weights refused: {error}"),
-            Self::Refused { case, refusal } => write!(f, "case {case}: weights refused: {refusal}"),
-        }
-    }
-}
+controller_core::sentences! { impl<R, S, K> ProofError<R, S, K> {
+    Self::Cases(error) => "cases refused: {}", error;
+    Self::Results(error) => "results cannot be written: {}", error;
+    Self::Blob { case, error } => "case {}: weights refused: {}", case, error;
+    Self::Refused { case, refusal } => "case {}: weights refused: {}", case, refusal;
+} }
 
 /// What was driven.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

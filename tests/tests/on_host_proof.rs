@@ -88,7 +88,7 @@ fn results_of_other_weights_are_refused() {
     others.swap(3, 4);
     let refused = compare::with_host(&others, Stream(&results::<Host>(&drives)[..]));
     let said = refused.expect_err("refused").to_string();
-    assert!(said.starts_with("results of case [00000003,"), "{said}");
+    assert!(said.starts_with("results of case 3, 2 steps, weights "), "{said}");
 }
 
 #[test]

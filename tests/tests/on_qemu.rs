@@ -52,6 +52,7 @@ fn main() -> ExitCode {
             "a_million_steps_with_144_weight_sets_give_the_hosts_bits_on_the_m4f_and_100_000_on_every_other_board",
             proof::million,
         ),
+        ("the_host_computes_the_same_bits_optimised_and_not", proof::builds_of_the_host),
         (
             "every_weight_one_ulp_up_or_down_is_noticed_on_the_board_at_the_step_the_host_says",
             proof::one_ulp,

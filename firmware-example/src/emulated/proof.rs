@@ -1,7 +1,6 @@
 //! The proof on a board: cases from a file on the host, every value of every step into another.
 
 use core::cell::RefCell;
-use core::fmt;
 
 use critical_section::Mutex;
 use equivalence_tests::files::{BLOB_WORDS, Sink, Source};
@@ -42,8 +41,8 @@ pub(super) fn run() -> bool {
     let outcome = critical_section::with(|token| {
         let mut memory = MEMORY.borrow(token).try_borrow_mut().map_err(|_| Trouble::Memory)?;
         let Memory { blob, results } = &mut *memory;
-        let cases = File::open(c"cases").map_err(Trouble::Cases)?;
-        let file = File::create(c"results").map_err(Trouble::Results)?;
+        let cases = File::open(c"cases").map_err(|error| Trouble::Cases(error.into()))?;
+        let file = File::create(c"results").map_err(|error| Trouble::Results(error.into()))?;
         let results = Results { file, held: results, count: 0 };
         prove::<Board, _, _>(Cases(cases), results, blob).map_err(Trouble::Proof)
     });
@@ -53,7 +52,7 @@ pub(super) fn run() -> bool {
             true
         }
         Err(trouble) => {
-            defmt::error!("proof: {}", defmt::Display2Format(&trouble));
+            defmt::error!("proof: {}", trouble);
             false
         }
     }
@@ -61,34 +60,44 @@ pub(super) fn run() -> bool {
 
 /// Why there is no proof. `P` is what stopped it on the way.
 enum Trouble<P> {
-    Cases(io::Error),
-    Results(io::Error),
+    Cases(System),
+    Results(System),
     Memory,
     Proof(P),
 }
 
-impl<P: fmt::Display> fmt::Display for Trouble<P> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Cases(error) => write!(f, "the file `cases` cannot be opened: {error}"),
-            Self::Results(error) => write!(f, "the file `results` cannot be created: {error}"),
-            Self::Memory => f.write_str("its memory is in use"),
-            Self::Proof(error) => error.fmt(f),
-        }
+controller_core::sentences! { impl<P> Trouble<P> {
+    Self::Cases(error) => "the file `cases` cannot be opened: {}", error;
+    Self::Results(error) => "the file `results` cannot be created: {}", error;
+    Self::Memory => "its memory is in use";
+    Self::Proof(error) => "{}", error;
+} }
+
+/// What the host's system says of a file: the number of its error, none at the file's end.
+struct System(Option<i32>);
+
+controller_core::sentences! { System {
+    Self(Some(number)) => "error {} of the host's system", number;
+    Self(None) => "the file ends early";
+} }
+
+impl From<io::Error> for System {
+    fn from(error: io::Error) -> Self {
+        Self(error.raw_os_error())
     }
 }
 
 struct Cases(File);
 
 impl Source for Cases {
-    type Error = io::Error;
+    type Error = System;
 
-    fn fill(&mut self, words: &mut [u32]) -> io::Result<()> {
-        self.0.read_exact(bytemuck::cast_slice_mut(words))
+    fn fill(&mut self, words: &mut [u32]) -> Result<(), System> {
+        Ok(self.0.read_exact(bytemuck::cast_slice_mut(words))?)
     }
 
-    fn at_end(&mut self) -> io::Result<bool> {
-        self.0.read(&mut [0]).map(|count| count == 0)
+    fn at_end(&mut self) -> Result<bool, System> {
+        Ok(self.0.read(&mut [0])? == 0)
     }
 }
 
@@ -100,9 +109,9 @@ struct Results<'a> {
 }
 
 impl Sink for Results<'_> {
-    type Error = io::Error;
+    type Error = System;
 
-    fn put(&mut self, words: &[u32]) -> io::Result<()> {
+    fn put(&mut self, words: &[u32]) -> Result<(), System> {
         for word in words {
             if self.count == CHUNK {
                 self.flush()?;
@@ -115,7 +124,7 @@ impl Sink for Results<'_> {
         Ok(())
     }
 
-    fn flush(&mut self) -> io::Result<()> {
+    fn flush(&mut self) -> Result<(), System> {
         let words = self.held.get(..self.count).unwrap_or_default();
         self.file.write_all(bytemuck::cast_slice(words))?;
         self.count = 0;

@@ -129,7 +129,7 @@ pub fn run(args: &TrainArgs, stop: &StopFlag, output: &mut Output) -> Result<(),
             let message = format!("{failure}\nwhen that is solved, go on with: {go_on}");
             Failure::new(failure.kind(), message)
         }
-        FailureKind::BadInput | FailureKind::Busy => failure,
+        FailureKind::Different | FailureKind::BadInput | FailureKind::Busy => failure,
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::bench::Bench;
 
-const VERBS: [&str; 6] = ["train", "evaluate", "replay", "scenario", "export", "inspect"];
+const VERBS: [&str; 7] = ["train", "evaluate", "replay", "scenario", "export", "inspect", "verify"];
 
 #[test]
 fn every_help_text_reads_as_its_snapshot() {

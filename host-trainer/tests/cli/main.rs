@@ -11,3 +11,4 @@ mod run_folders;
 mod same_seed;
 #[cfg(unix)]
 mod streams;
+mod verify;

@@ -53,29 +53,21 @@ pub enum FileError<E> {
     GoesOn,
 }
 
-impl<E: fmt::Display> fmt::Display for FileError<E> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Medium(error) => error.fmt(f),
-            Self::Magic { found: [a, b], expected: [c, d] } => {
-                write!(f, "it starts with {a:08x} {b:08x}, {c:08x} {d:08x} expected")
-            }
-            Self::Version { found, expected } => {
-                write!(f, "format version {found}, this program reads version {expected}")
-            }
-            Self::BlobTooLong { found, expected } => {
-                write!(f, "a weight blob of {found} words, at most {expected} expected")
-            }
-            Self::OtherCase { found, expected } => {
-                write!(f, "results of case {found:08x?}, {expected:08x?} expected")
-            }
-            Self::Count { found, expected } => write!(f, "{found} cases, {expected} expected"),
-            Self::Check { found: [a, b], expected: [c, d] } => {
-                write!(f, "damaged: check {b:08x}{a:08x} stored, {d:08x}{c:08x} computed")
-            }
-            Self::GoesOn => f.write_str("it goes on after its last case"),
-        }
-    }
-}
+controller_core::sentences! { impl<E> FileError<E> {
+    Self::Medium(error) => "{}", error;
+    Self::Magic { found: [a, b], expected: [c, d] } =>
+        "it starts with {:08x} {:08x}, {:08x} {:08x} expected", a, b, c, d;
+    Self::Version { found, expected } =>
+        "format version {}, this program reads version {}", found, expected;
+    Self::BlobTooLong { found, expected } =>
+        "a weight blob of {} words, at most {} expected", found, expected;
+    Self::OtherCase { found: [case, steps, low, high], expected: [c, s, l, h] } =>
+        "results of case {}, {} steps, weights {:08x}{:08x}; expected case {}, {} steps, weights {:08x}{:08x}",
+        case, steps, high, low, c, s, h, l;
+    Self::Count { found, expected } => "{} cases, {} expected", found, expected;
+    Self::Check { found: [a, b], expected: [c, d] } =>
+        "damaged: check {:08x}{:08x} stored, {:08x}{:08x} computed", b, a, d, c;
+    Self::GoesOn => "it goes on after its last case";
+} }
 
 impl<E: fmt::Debug + fmt::Display> core::error::Error for FileError<E> {}

@@ -113,8 +113,8 @@ fn refusals_name_what_was_found_and_what_was_expected() {
     other[20] = 3;
     assert_eq!(
         refused(&other),
-        "results of case [00000000, 00000003, 9abcdef0, 12345678], \
-         [00000000, 00000002, 9abcdef0, 12345678] expected"
+        "results of case 0, 3 steps, weights 123456789abcdef0; \
+         expected case 0, 2 steps, weights 123456789abcdef0"
     );
     let mut long = cases();
     long[25] = 5;

@@ -1,13 +1,16 @@
 //! The proof: every value of every step, on every board, against what the host computes now.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::PathBuf;
+use std::process::Command;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Instant;
 
 use equivalence_tests::checkout::{self, Checkout};
 use equivalence_tests::compare::{self, Drive, Tally};
-use equivalence_tests::files::{Case, ResultsReader};
+use equivalence_tests::files::{Case, ResultsReader, Stream};
 use equivalence_tests::harness::Trouble;
 use equivalence_tests::on_host;
 use equivalence_tests::weight_sets::{self, PER_KIND, WeightSet};
@@ -65,6 +68,41 @@ pub(crate) fn million() -> Result<(), Trouble> {
         );
         if (tally.steps, tally.differing_bits) != (144 * u64::from(steps), 0) {
             return Err(Trouble::Failed(format!("{board}: {tally:?}")));
+        }
+    }
+    Ok(())
+}
+
+/// The reference is what the build of this test computes; the builds a user has are not this one.
+pub(crate) fn builds_of_the_host() -> Result<(), Trouble> {
+    let drives = drives(HUNDRED_THOUSAND);
+    let builds: [(&str, &[&str]); 2] = [
+        ("not optimised", &["--config", "profile.dev.opt-level=0"]),
+        ("optimised", &["--release"]),
+    ];
+    for (name, options) in builds {
+        let folder = Folder::new()?;
+        let failed = |error: std::io::Error| Trouble::Failed(format!("{name}: {error}"));
+        checkout::write_cases(&folder.0.join("cases"), &drives).map_err(failed)?;
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let output = Command::new(cargo)
+            .current_dir(Checkout::compiled_in().folder())
+            .args(["run", "--quiet", "--package", "equivalence-tests", "--bin", "prove-on-host"])
+            .args(options)
+            .arg("--")
+            .arg(&folder.0)
+            .output()
+            .map_err(failed)?;
+        if !output.status.success() {
+            let said = String::from_utf8_lossy(&output.stderr);
+            return Err(Trouble::Failed(format!("{name}: {}: {said}", output.status)));
+        }
+        let results = File::open(folder.0.join("results")).map_err(failed)?;
+        let tally = compare::with_host(&drives, Stream(BufReader::new(results)))
+            .map_err(|error| Trouble::Failed(format!("{name}: {error}")))?;
+        println!("host, {name}: {} steps, {} differing bits", tally.steps, tally.differing_bits);
+        if (tally.steps, tally.differing_bits) != (100_800, 0) {
+            return Err(Trouble::Failed(format!("{name}: {tally:?}")));
         }
     }
     Ok(())
