@@ -11,6 +11,7 @@ use controller_core::control_loop::{Actuate, Sense};
 use controller_core::controller::Command;
 use controller_core::observation::{BEAMS, Echo, Reading, ReadingError, STALE_AFTER};
 use controller_core::units::StepLength;
+use core::num::NonZeroU64;
 
 /// Which actuator refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,7 +39,7 @@ pub struct Chassis<H: Hardware> {
     /// How far the network was trained to see, metres.
     range: f32,
     /// Length of a control period, microseconds.
-    period: u64,
+    period: NonZeroU64,
     now: Micros,
     missed: u32,
     sensed: bool,
@@ -62,7 +63,7 @@ impl<H: Hardware> Chassis<H> {
             motor,
             fan: Fan::default(),
             range,
-            period: period.max(1),
+            period: NonZeroU64::new(period).unwrap_or(NonZeroU64::MIN),
             now: Micros(0),
             missed: 0,
             sensed: false,
@@ -113,7 +114,7 @@ impl<H: Hardware> Chassis<H> {
     }
 
     fn drive(&mut self, command: Command) -> Result<(), ActuatorFault> {
-        let speed = command.step.metres() * 1e6 / self.period as f32;
+        let speed = command.step.metres() * 1e6 / self.period.get() as f32;
         let driven = match self.servo.steer(command.steer) {
             Ok(()) => self.motor.drive(speed).map_err(|_| ActuatorFault::Motor),
             Err(_) => Err(ActuatorFault::Steering),
@@ -140,8 +141,9 @@ impl<H: Hardware> Sense for Chassis<H> {
                 *slot = Some(self.echo(range, target));
             }
         }
-        let age = self.fan.age(self.now).div_ceil(self.period);
-        Reading::new(echoes, u32::try_from(age).unwrap_or(u32::MAX), self.range)
+        let age = self.fan.age(self.now);
+        let begun = age / self.period + u64::from(age % self.period != 0);
+        Reading::new(echoes, u32::try_from(begun).unwrap_or(u32::MAX), self.range)
     }
 }
 

@@ -9,6 +9,7 @@
 //! | [`servo`], [`motor`] | steer angle and speed as pulse widths |
 
 pub mod motor;
+mod plausible_bus;
 pub mod pulse;
 pub mod rangefinder;
 pub mod servo;

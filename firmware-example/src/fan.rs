@@ -3,7 +3,7 @@
 use crate::clock::Micros;
 use crate::drivers::rangefinder::{Range, RangeFinders, SensorFault};
 use controller_core::observation::BEAMS;
-use heapless::HistoryBuf;
+use heapless::Deque;
 
 /// A beam that reported nothing for this long is missing, microseconds.
 pub const SILENT: u64 = 100_000;
@@ -16,7 +16,7 @@ pub struct Fan {
 
 #[derive(Clone, Debug, Default)]
 struct Beam {
-    recent: HistoryBuf<Range, 3>,
+    recent: Deque<Range, 3>,
     heard: Option<Micros>,
     fault: Option<SensorFault>,
 }
@@ -62,16 +62,21 @@ impl Beam {
         }
         self.fault = taken.err();
         if let Ok(Some(range)) = taken {
-            self.recent.write(range);
+            if self.recent.is_full() {
+                self.recent.pop_front();
+            }
+            // There is room now.
+            let _ = self.recent.push_back(range);
             self.heard = Some(now);
         }
     }
 
     /// The median of three; until there are three, the nearest, which is the safe side.
     fn median(&self) -> Option<Range> {
-        match *self.recent.as_slice() {
-            [a, b, c] => Some(a.min(b).max(a.max(b).min(c))),
-            ref fewer => fewer.iter().min().copied(),
+        let mut recent = self.recent.iter().copied();
+        match (recent.next(), recent.next(), recent.next()) {
+            (Some(a), Some(b), Some(c)) => Some(a.min(b).max(a.max(b).min(c))),
+            (a, b, _) => a.into_iter().chain(b).min(),
         }
     }
 }

@@ -29,12 +29,7 @@ pub(crate) fn build_program(program: &Program, options: &Options) -> Result<Path
     if let Some(sabotage) = &options.sabotage {
         command.args(["--features", &format!("sabotage-{sabotage}")]);
     }
-    // One more section, which stays out of the device. Rust calls the option unstable: it is asked for
-    // by name of the program, so that no other crate takes this for a nightly compiler.
-    if toolchain == Toolchain::Rustup {
-        command.env("RUSTC_BOOTSTRAP", program.name.replace('-', "_"));
-    }
-    command.args(["--", "-Zemit-stack-sizes"]);
+    record_stack(&mut command, program.name, toolchain);
     process::run(&mut command)?;
     let folder = toolchain.target_dir().join(program.triple).join("firmware");
     let built = folder.join(program.name);
@@ -59,6 +54,18 @@ pub(crate) fn build_example(
     Ok(folder.join("examples").join(example))
 }
 
+/// Lets `cargo rustc` record what each function of the program takes of the stack; arguments after this are
+/// the compiler's.
+///
+/// The record is a section that stays out of the device. Rust calls the option unstable: it is asked for
+/// by name of the program, so that no other crate takes this for a nightly compiler.
+pub(crate) fn record_stack(command: &mut Command, program: &str, toolchain: Toolchain) {
+    if toolchain == Toolchain::Rustup {
+        command.env("RUSTC_BOOTSTRAP", program.replace('-', "_"));
+    }
+    command.args(["--", "-Zemit-stack-sizes"]);
+}
+
 /// `cargo <verb>` for one board's program.
 pub(crate) fn command(verb: &str, program: &Program, toolchain: Toolchain) -> Command {
     let mut command = package_command(verb, program, toolchain);
@@ -68,6 +75,13 @@ pub(crate) fn command(verb: &str, program: &Program, toolchain: Toolchain) -> Co
 
 /// `cargo <verb>` for the package, as it is for one board; which of its programs is still open.
 fn package_command(verb: &str, program: &Program, toolchain: Toolchain) -> Command {
+    let mut command = processor_command(verb, program, toolchain);
+    command.args(["--features", &program.feature()]);
+    command
+}
+
+/// `cargo <verb>` for the package, made for the processor of this board; features and program are still open.
+pub(crate) fn processor_command(verb: &str, program: &Program, toolchain: Toolchain) -> Command {
     let mut command = toolchain.cargo(verb, program.triple);
     // Here and not in `.cargo/config.toml`: two boards share an instruction set but not a processor.
     let mut flags = vec![format!("-Ctarget-cpu={}", program.cpu)];
@@ -78,6 +92,5 @@ fn package_command(verb: &str, program: &Program, toolchain: Toolchain) -> Comma
     let flags = targets::setting(program.triple, "rustflags", &format!("{flags:?}"));
     command.args(["--config", &flags]);
     command.args(["--quiet", "--profile", "firmware", "--package", "firmware-example"]);
-    command.args(["--features", &program.feature()]);
     command
 }

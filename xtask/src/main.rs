@@ -20,6 +20,7 @@ mod firmware;
 mod lint;
 mod machine;
 mod options;
+mod panic_free;
 mod panics;
 mod process;
 mod qemu;
@@ -92,6 +93,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[sample|rational|libm|micromath]…",
         summary: "every f32 there is through every tanh, on host and board; minutes, not part of test",
         run: exhaustive::run,
+    },
+    Command {
+        name: "panic-free",
+        arguments: "[--sabotage index]",
+        summary: "links the driving program so that it fails if anything in it can panic, and says what can",
+        run: panic_free::run,
     },
     Command {
         name: "panics",

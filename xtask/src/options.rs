@@ -61,8 +61,8 @@ pub(crate) struct Options {
 /// Every option; each takes a value.
 const VALUED: [&str; 7] = ["targets", "board", "sabotage", "weights", "icount", "prove", "timeout"];
 
-/// Ways to spoil a program, each a feature `sabotage-<way>` of the boards.
-const SABOTAGES: [&str; 5] = ["panic", "fault", "hang", "reordered-sum", "fused-sum"];
+/// Ways to spoil a program, each a feature `sabotage-<way>`; the last is for `panic-free`.
+const SABOTAGES: [&str; 6] = ["panic", "fault", "hang", "reordered-sum", "fused-sum", "index"];
 
 impl Options {
     /// Reads the words after `cargo xtask`.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use crate::boards;
-use crate::call_graph::{Bound, CallGraph, deepest};
+use crate::call_graph::{Bound, CallGraph, Node, deepest};
 use crate::failure::Failure;
 use crate::firmware;
 use crate::options::Options;
@@ -49,12 +49,23 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
 /// The bound of a program from its start, a panic left out.
 pub(crate) fn of(program: &Path) -> Result<(CallGraph, Bound), Failure> {
     let graph = graph(program)?;
-    let start = STARTS.iter().find_map(|name| graph.named(name)).ok_or_else(|| {
+    let start = start(&graph).ok_or_else(|| {
         Failure::failed(format!("{}: no function {}", program.display(), STARTS.join(" or ")))
     })?;
     let panic: BTreeSet<usize> = graph.named(PANIC).into_iter().collect();
     let bound = deepest(&graph, start, &panic);
     Ok((graph, bound))
+}
+
+/// The functions that a run may come to, a panic left out.
+pub(crate) fn running(graph: &CallGraph) -> impl Iterator<Item = &Node> {
+    let panic: BTreeSet<usize> = graph.named(PANIC).into_iter().collect();
+    let roots: Vec<usize> = start(graph).into_iter().collect();
+    graph.reached(&roots, &panic).into_iter().map(|index| &graph.nodes[index])
+}
+
+fn start(graph: &CallGraph) -> Option<usize> {
+    STARTS.iter().find_map(|name| graph.named(name))
 }
 
 /// The calls of a program.

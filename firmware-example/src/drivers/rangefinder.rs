@@ -50,6 +50,13 @@ pub enum SensorFault {
         /// The sensor's status code.
         status: u8,
     },
+    /// It said something that no VL53L0X says.
+    Implausible {
+        /// The register that was read.
+        register: u8,
+        /// What was read.
+        found: u8,
+    },
     /// There is no sensor for this beam.
     NoSuchBeam,
 }
@@ -60,6 +67,8 @@ controller_core::sentences! { SensorFault {
         "another device answers: identity {:#04x}, {:#04x} expected", found, expected;
     Self::Timeout => "it did not finish its calibration";
     Self::Hardware { status } => "it reports a hardware fault, status {}", status;
+    Self::Implausible { register, found } =>
+        "its register {:#04x} reads {}, which no VL53L0X says", register, found;
     Self::NoSuchBeam => "there is no such beam";
 } }
 

@@ -8,6 +8,7 @@
 //! leaves out the status of a measurement: without it a reflection from beyond the sensor's
 //! unambiguous range looks like a near wall.
 
+use super::plausible_bus::{Fault, PlausibleBus};
 use super::rangefinder::{BusFault, Range, RangeFinders, SensorFault, StartError};
 use controller_core::observation::BEAMS;
 use embedded_hal::delay::DelayNs;
@@ -69,10 +70,10 @@ impl<B: I2c, X: OutputPin, D: DelayNs> TofArray<B, X, D> {
     }
 
     fn set_up(&mut self, address: u8) -> Result<(), SensorFault> {
-        let mut sensor = VL53L0x::new(&mut self.bus).map_err(set_up_fault)?;
+        let mut sensor = VL53L0x::new(PlausibleBus(&mut self.bus)).map_err(set_up_fault)?;
         sensor.set_address(address).map_err(set_up_fault)?;
         // Back to back: the next measurement begins when one ends, about every 33 ms.
-        sensor.start_continuous(0).map_err(bus_fault)?;
+        sensor.start_continuous(0)?;
         self.identify(address)
     }
 
@@ -143,10 +144,10 @@ fn bus_fault<E: embedded_hal::i2c::Error>(error: E) -> SensorFault {
     SensorFault::Bus(BusFault::from(error.kind()))
 }
 
-fn set_up_fault<E: embedded_hal::i2c::Error>(error: vl53l0x::Error<E>) -> SensorFault {
+fn set_up_fault<E: embedded_hal::i2c::Error>(error: vl53l0x::Error<Fault<E>>) -> SensorFault {
     match error {
         vl53l0x::Error::InvalidDevice(found) => SensorFault::OtherDevice { found, expected: MODEL },
-        vl53l0x::Error::BusError(error) => bus_fault(error),
+        vl53l0x::Error::BusError(fault) => fault.into(),
         vl53l0x::Error::Timeout | vl53l0x::Error::InvalidAddress(_) => SensorFault::Timeout,
     }
 }
