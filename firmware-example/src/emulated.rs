@@ -1,5 +1,7 @@
 //! How a program on a board that QEMU stands in for logs, panics and ends; and the program itself.
 
+#[cfg(feature = "cortex-m")]
+mod high_water;
 mod proof;
 #[cfg(feature = "cortex-m")]
 #[path = "emulated/cortex_m_support.rs"]
@@ -42,6 +44,8 @@ pub fn run() -> ! {
         }
     }
     let usable = drive_with_weights_in_flash();
+    #[cfg(feature = "cortex-m")]
+    defmt::info!("stack: at most {=usize} bytes used", high_water::bytes());
     if all_agree && usable { succeed() } else { fail() }
 }
 

@@ -65,6 +65,8 @@ pub(crate) struct Sensor {
     /// Its shutdown line is connected.
     pub(crate) line_connected: bool,
     pub(crate) identity: u8,
+    /// A register that reads the same whatever was written to it, and what.
+    pub(crate) stuck: Option<(u8, u8)>,
     awake: bool,
     address: u8,
     registers: [u8; 256],
@@ -79,6 +81,7 @@ impl Default for Sensor {
             present: true,
             line_connected: true,
             identity: 0xee,
+            stuck: None,
             awake: true,
             address: DEFAULT_ADDRESS,
             registers: [0; 256],
@@ -106,8 +109,8 @@ impl Sensor {
     /// Holds it in reset or lets it wake up; its registers do not survive.
     pub(crate) fn reset(&mut self, hold: bool) {
         if self.line_connected {
-            let Self { present, identity, .. } = *self;
-            *self = Self { present, identity, awake: !hold, ..Self::default() };
+            let Self { present, identity, stuck, .. } = *self;
+            *self = Self { present, identity, stuck, awake: !hold, ..Self::default() };
         }
     }
 
@@ -130,6 +133,9 @@ impl Sensor {
     fn read(&mut self, bytes: &mut [u8]) {
         for byte in bytes {
             *byte = match self.pointer {
+                register if self.stuck.is_some_and(|stuck| stuck.0 == register) => {
+                    self.stuck.map_or(0, |stuck| stuck.1)
+                }
                 0xc0 => self.identity,
                 // Calibration has always just ended.
                 0x13 => u8::from(self.waiting || !self.ranging),

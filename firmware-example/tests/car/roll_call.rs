@@ -50,6 +50,16 @@ fn another_device_in_a_sensors_place_is_named_with_its_identity() {
 }
 
 #[test]
+fn a_line_that_hangs_high_while_a_sensor_is_set_up_is_a_fault_and_no_division_by_zero() {
+    for register in [0x50, 0x70] {
+        let world = World::default();
+        world.with(|outside| outside.sensors[1].stuck = Some((register, 0xff)));
+        let fault = SensorFault::Implausible { register, found: 0xff };
+        assert_eq!(world.tof_array().start(), Err(StartError::Sensor { beam: 1, fault }));
+    }
+}
+
+#[test]
 fn a_shutdown_line_that_is_not_connected_is_noticed_before_addresses_are_given() {
     let world = World::default();
     world.with(|outside| outside.sensors[2].line_connected = false);
