@@ -166,13 +166,15 @@ pub(crate) fn chosen_real(options: &Options) -> Result<Vec<&'static Real>, Failu
 
 /// The programs named by the operands, or every one there is.
 pub(crate) fn chosen_programs(options: &Options) -> Result<Vec<Program>, Failure> {
-    let real = |name: &String| real(name).map(|board| board.program);
+    let known = |name: &String| {
+        programs().find(|program| program.name == name).ok_or_else(|| {
+            let names: Vec<&str> = programs().map(|program| program.name).collect();
+            Failure::usage(format!("no board `{name}`; expected one of: {}", names.join(", ")))
+        })
+    };
     match options.operands.as_slice() {
         [] => Ok(programs().collect()),
-        names => names
-            .iter()
-            .map(|name| real(name).map_or_else(|| Ok(named(name)?.program()), Ok))
-            .collect(),
+        names => names.iter().map(known).collect(),
     }
 }
 
@@ -264,6 +266,15 @@ mod tests {
             let table = format!("[target.{}]\nrunner = \"probe-rs run ", program.triple);
             assert!(config.contains(&table), "no runner for {}", program.triple);
         }
+    }
+
+    #[test]
+    fn an_unknown_board_is_refused_with_all_that_can_be_built() {
+        let options = Options::parse(vec!["build".into(), "pico3".into()]).expect("readable");
+        let failure = chosen_programs(&options).expect_err("no such board");
+        let expected = "no board `pico3`; expected one of: microbit, mps2-an385, mps2-an386, mps2-an500, \
+                        riscv32-virt, pico2";
+        assert_eq!(failure.to_string(), expected);
     }
 
     #[test]

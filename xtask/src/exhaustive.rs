@@ -23,10 +23,12 @@ enum Inputs {
 }
 
 /// Every input of every tanh, or of those named: one hash everywhere, then error bounds on this host.
-/// With `sample` it is a stride of the inputs, and the hashes only.
+/// With `sample` before them it is a stride of the inputs, and the hashes only.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
-    if options.operands == ["sample"] {
-        return sample(options);
+    if let Some((first, names)) = options.operands.split_first()
+        && first == "sample"
+    {
+        return same_everywhere(&chosen(names)?, Inputs::Sample, options);
     }
     let tanh = chosen(&options.operands)?;
     same_everywhere(&tanh, Inputs::All, options)?;
@@ -50,7 +52,7 @@ fn chosen(operands: &[String]) -> Result<Vec<&'static str>, Failure> {
     let known = |name: &String| {
         TANH.into_iter().find(|tanh| tanh == name).ok_or_else(|| {
             Failure::usage(format!(
-                "no tanh `{name}`; expected sample, or any of: {}",
+                "no tanh `{name}`; expected `sample` first or not, then any of: {}",
                 TANH.join(", ")
             ))
         })
@@ -119,7 +121,7 @@ mod tests {
         let refusal = chosen(&["tahn".into()]).expect_err("unknown").to_string();
         assert_eq!(
             refusal,
-            "no tanh `tahn`; expected sample, or any of: rational, libm, micromath"
+            "no tanh `tahn`; expected `sample` first or not, then any of: rational, libm, micromath"
         );
     }
 }

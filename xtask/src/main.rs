@@ -12,6 +12,7 @@ mod apt;
 mod bench;
 mod boards;
 mod call_graph;
+mod command;
 mod doctor;
 mod elf;
 mod exhaustive;
@@ -34,16 +35,9 @@ mod uf2;
 
 use std::process::ExitCode;
 
+use command::Command;
 use failure::Failure;
 use options::Options;
-
-/// One thing xtask can do.
-struct Command {
-    name: &'static str,
-    arguments: &'static str,
-    summary: &'static str,
-    run: fn(&Options) -> Result<(), Failure>,
-}
 
 const COMMANDS: &[Command] = &[
     Command {
@@ -90,7 +84,7 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "exhaustive",
-        arguments: "[sample|rational|libm|micromath]…",
+        arguments: "[sample] [rational|libm|micromath]…",
         summary: "every f32 there is through every tanh, on host and board; minutes, not part of test",
         run: exhaustive::run,
     },
@@ -151,7 +145,7 @@ fn dispatch(arguments: Vec<String>) -> Result<(), Failure> {
     let known = COMMANDS.iter().find(|command| command.name == name);
     let command =
         known.ok_or_else(|| Failure::usage(format!("no command `{name}`\n\n{}", help())))?;
-    (command.run)(&options)
+    command.start(&options)
 }
 
 fn help() -> String {

@@ -77,7 +77,7 @@ fn missed(rows: &[Row]) -> Vec<String> {
     };
     for goal in &GOALS {
         let Some(row) = rows.iter().find(|row| row.is_default_step_of(goal.recurrence)) else {
-            return vec![format!("no count of a {} step", goal.recurrence)];
+            return vec![format!("no count of the {} step", goal.recurrence)];
         };
         expect(row, "instructions", row.max, goal.instructions);
         expect(row, "bytes of code and weights", row.code + row.weights, goal.flash);
@@ -119,6 +119,6 @@ mod tests {
 
     #[test]
     fn a_step_that_was_not_counted_is_a_missed_goal() {
-        assert_eq!(missed(&rows()[..2]), ["no count of a elman step"]);
+        assert_eq!(missed(&rows()[..2]), ["no count of the elman step"]);
     }
 }
