@@ -78,11 +78,11 @@ impl Report {
     /// Prints table and object.
     pub(super) fn print(&mut self, output: &mut Output) {
         self.differing_bits = self.machines().map(|machine| machine.differing_bits).sum();
-        output.line(format_args!("{:24} {:>10}  {:>14}", "machine", "steps", "differing bits"));
+        output.line(format_args!("{:26} {:>10}  {:>14}", "machine", "steps", "differing bits"));
         let alone = "host, one drive at a time";
-        output.line(format_args!("{alone:24} {:>9}  {:>14}", self.steps, "the reference"));
+        output.line(format_args!("{alone:26} {:>10}  {:>14}", self.steps, "the reference"));
         for Machine { name, steps, differing_bits, .. } in self.machines() {
-            output.line(format_args!("{name:24} {steps:>10}  {differing_bits:>14}"));
+            output.line(format_args!("{name:26} {steps:>10}  {differing_bits:>14}"));
         }
         output.line(format_args!("{}: commands, outputs, hidden values, poses", self.task()));
         output.json(self);
