@@ -137,6 +137,14 @@ impl Scene {
 
     fn walls(&mut self) -> Vec<Segment<f32>> {
         let mut walls = Vec::new();
+        if self.stream.chance(0.3) {
+            // So many that a tree finds those that matter.
+            for _ in 0..100 {
+                let (x, y) = self.place();
+                let mut step = || self.stream.within(-0.03, 0.03) * self.size;
+                walls.push(Segment { a: (x, y), b: (x + step(), y + step()) });
+            }
+        }
         for _ in 0..2 + self.stream.index(8) {
             let (x, y) = self.place();
             let (w, h) = (
@@ -262,4 +270,48 @@ fn a_pose_outside_of_every_cell_or_not_a_number_is_answered_like_any_other() {
         assert_eq!(pair.lookout.fan::<Lanes<8>>(&pose), [f32::INFINITY; BEAMS]);
         assert!(!pair.lookout.touches(&pose));
     }
+}
+
+#[test]
+fn a_wall_exactly_at_the_range_is_seen_from_anywhere_in_a_cell() {
+    let mut random = random(72);
+    for _ in 0..60 {
+        // So that x + 10 is exact.
+        let x = (random.within(0.0, 3.0) * 64.0).round() / 64.0;
+        let wall = |x: f32| Segment { a: (x, -9.0), b: (x, 9.0) };
+        let walls = vec![wall(-3.0), wall(x + 10.0)];
+        let mut pair = Pair::new(walls, Vec::new(), Fan::new(&mounts([0.0; BEAMS]), 10.0), BODY);
+        let pose = Pose::new(x, 0.0, 0.0);
+        pair.compare(&pose);
+        pair.compare(&Pose { x: x.next_down(), ..pose });
+        assert!(pair.seen >= BEAMS, "{x}");
+    }
+}
+
+/// A beam that runs along a wall meets it, by rounding, at any distance: before the wall that
+/// hides it, too. Strange, but what the arithmetic says.
+#[test]
+fn a_hidden_wall_that_a_beam_runs_along_is_tested_all_the_same() {
+    let mut random = random(73);
+    let mut strange = 0;
+    for _ in 0..3_000 {
+        let angle = random.within(-PI, PI);
+        let (sin, cos) = libm::sincosf(angle);
+        let at = |ahead: f32, aside: f32| (cos * ahead - sin * aside, sin * ahead + cos * aside);
+        let screen = Segment { a: at(3.0, -2.0), b: at(3.0, 2.0) };
+        let hidden = Segment { a: at(6.0, 0.0), b: at(9.5, 0.0) };
+        let walls = vec![screen, hidden, Segment { a: at(-3.0, -3.0), b: at(-3.0, 3.0) }];
+        let fan = Fan::new(&mounts([0.0; BEAMS]), 20.0);
+        let mut pair = Pair::new(walls, Vec::new(), fan, BODY);
+        for _ in 0..8 {
+            let mut near = || random.within(-3e-7, 3e-7);
+            let pose = Pose::new(near(), near(), angle + near());
+            pair.compare(&pose);
+            let ray = pair.fan.rays(&pose)[0];
+            let nearest = pair.truth.distance(&ray, 20.0);
+            strange += usize::from(nearest < ray.to_segment(&screen));
+        }
+    }
+    println!("{strange} beams met the hidden wall first");
+    assert!(strange > 10, "{strange}");
 }

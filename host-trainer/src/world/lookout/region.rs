@@ -126,3 +126,74 @@ impl Reach {
         self.cell.grown(far)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::grid::{Grid, SECTORS};
+    use super::*;
+    use crate::seed::{Purpose, RunSeed};
+    use crate::world::shape::cross;
+    use controller_core::geometry::Disc;
+    use controller_core::motion::Pose;
+    use controller_core::observation::BeamMount;
+    use std::f32::consts::PI;
+
+    /// Poses exactly on borders of cells and sectors, next to them, and anywhere.
+    #[test]
+    fn every_beam_starts_and_points_within_the_cone_of_its_place_and_the_body_lies_in_reach() {
+        let mut stream = RunSeed(74).stream(Purpose::Episode, 0, 0);
+        let mount = |x, y, angle: f32| BeamMount { x, y, angle };
+        let fan = Fan::new(
+            &[
+                mount(0.0, 0.0, -0.5),
+                mount(0.05, 0.0, 0.0),
+                mount(-0.3, 0.1, 2.0),
+                mount(0.0, -0.2, -1.5),
+                mount(1.0, 1.0, 3.1),
+            ],
+            10.0,
+        );
+        let body = Body { rear: -0.35, front: 0.05, half_width: 0.1 };
+        for (low, side) in [([0.0, 0.0], 0.35), ([-9_000.0, 4_000.0], 0.35), ([1.0, 2.0], 0.001)] {
+            let high = [low[0] + 100.0 * side, low[1] + 100.0 * side];
+            let grid = Grid::new(low, high, side, 1 << 20);
+            for _ in 0..20_000 {
+                let mut axis = |low: f32| {
+                    let border = low + (stream.index(99) as f32 + 0.5) * side;
+                    [
+                        border,
+                        border.next_up(),
+                        border.next_down(),
+                        low + stream.within(0.0, 99.0) * side,
+                    ][stream.index(4)]
+                };
+                let (x, y) = (axis(low[0]), axis(low[1]));
+                let border = (stream.index(SECTORS) as f32 - 7.5) * (PI / 8.0);
+                let anywhere = stream.within(-PI, PI);
+                let heading =
+                    [border, border.next_up(), border.next_down(), anywhere][stream.index(4)];
+                let pose = Pose::new(x, y, heading);
+                let (column, row, sector) = grid.locate(&pose).unwrap();
+                let region = grid.regions(column, row)[sector];
+                let rays = fan.rays(&pose);
+                for (cone, ray) in region.cones(&fan).iter().zip(rays) {
+                    let direction = [ray.direction.0, ray.direction.1].map(f64::from);
+                    assert!(cross(cone.right, direction) > 0.0, "{pose:?}");
+                    assert!(cross(direction, cone.left) > 0.0, "{pose:?}");
+                    let from = [ray.origin.0, ray.origin.1].map(f64::from);
+                    let inside = |axis: usize| {
+                        (cone.from.low[axis]..=cone.from.high[axis]).contains(&from[axis])
+                    };
+                    assert!(inside(0) && inside(1), "{pose:?}: {from:?} not in {cone:?}");
+                }
+                let reach = region.reach(&body);
+                for (ahead, left) in [(0.05, 0.1), (0.05, -0.1), (-0.35, 0.1), (-0.35, -0.1)] {
+                    let (x, y) = pose.to_world(ahead, left);
+                    let point = Shape::from(&Disc { centre: (x, y), radius: 0.0 });
+                    let rounding = 4.0 * f64::from(f32::EPSILON * low[0].abs().max(1.0));
+                    assert!(reach.meets(&point, rounding), "{pose:?}: ({x}, {y})");
+                }
+            }
+        }
+    }
+}
