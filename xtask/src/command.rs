@@ -30,7 +30,8 @@ impl Command {
         }
         if let Some(option) = options.given.iter().find(|option| self.values(option).is_none()) {
             return Err(Failure::usage(format!(
-                "{name}: no option `--{option}`; expected: cargo xtask {name} {arguments}"
+                "{name}: no option `--{option}`; expected: {}",
+                format!("cargo xtask {name} {arguments}").trim_end()
             )));
         }
         match (&options.sabotage, self.values("sabotage")) {
@@ -86,6 +87,10 @@ mod tests {
         assert_eq!(
             refusal(&BUILD, "build --timeout 5"),
             "build: no option `--timeout`; expected: cargo xtask build [BOARD]… [--sabotage panic|hang]"
+        );
+        assert_eq!(
+            refusal(&SPEED, "speed --timeout 5"),
+            "speed: no option `--timeout`; expected: cargo xtask speed"
         );
         assert_eq!(
             refusal(&BUILD, "build --sabotage index"),
