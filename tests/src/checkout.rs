@@ -114,7 +114,16 @@ impl Checkout {
         let mut arguments = vec!["build", board];
         arguments.extend(sabotage.into_iter().flat_map(|sabotage| ["--sabotage", sabotage]));
         let arguments: Vec<&OsStr> = arguments.into_iter().map(OsStr::new).collect();
-        let output = succeeded(self.xtask(&arguments)?)?;
+        self.made(&arguments)
+    }
+
+    /// Runs a `cargo xtask` that prints the path of what it makes, and returns the path.
+    ///
+    /// # Errors
+    ///
+    /// A tool is missing, or the command fails.
+    pub fn made(&self, arguments: &[&OsStr]) -> Result<PathBuf, Trouble> {
+        let output = succeeded(self.xtask(arguments)?)?;
         Ok(PathBuf::from(String::from_utf8_lossy(&output.stdout).trim_end()))
     }
 

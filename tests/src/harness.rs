@@ -7,6 +7,8 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
+use crate::checkout;
+
 /// Why a test did not pass.
 #[derive(Debug)]
 pub enum Trouble {
@@ -14,6 +16,15 @@ pub enum Trouble {
     Failed(String),
     /// It cannot run here: something is missing, and how to get it.
     NotRun(String),
+}
+
+impl From<checkout::Trouble> for Trouble {
+    fn from(trouble: checkout::Trouble) -> Self {
+        match trouble {
+            checkout::Trouble::Missing(said) => Self::NotRun(said),
+            checkout::Trouble::Failed(said) => Self::Failed(said),
+        }
+    }
 }
 
 /// A test: its name is the sentence that it proves.

@@ -10,6 +10,7 @@ mod weights;
 use std::process::ExitCode;
 
 use controller_core::recording;
+use equivalence_tests::checkout::Checkout;
 use equivalence_tests::harness::{self, Test, Trouble};
 use firmware_example::recorded::{self, Drive};
 use program::{Outcome, Program};
@@ -177,16 +178,9 @@ fn drives(board: &str, program: &Program) -> Vec<Drive> {
         .collect()
 }
 
-/// Every folder under `firmware-example/boards`, in order, but boards that no emulator stands in for.
+/// Every emulated board; a test of the list compares it with the folders of boards.
 fn boards() -> Vec<String> {
-    let mut boards: Vec<String> =
-        std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../firmware-example/boards"))
-            .expect("boards/")
-            .map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned())
-            .filter(|name| name != "pico2")
-            .collect();
-    boards.sort();
-    boards
+    Checkout::compiled_in().boards().expect("the manifest lists boards")
 }
 
 fn words(bytes: &[u8]) -> Vec<u32> {

@@ -3,10 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
+use equivalence_tests::checkout::Checkout;
 use equivalence_tests::harness::{self, Test, Trouble};
-
-/// xtask's exit code where a tool is missing.
-const MISSING: i32 = 3;
 
 /// Reads the ELF file and the UF2 file, compares, and says how many bytes the program has.
 const READER: &str = r#"
@@ -103,18 +101,6 @@ fn read(elf: &Path, uf2: &Path) -> Result<Result<String, String>, Trouble> {
 
 /// The program and the file that `cargo xtask uf2` makes of it.
 fn build() -> Result<(PathBuf, PathBuf), Trouble> {
-    let output = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-        .args(["xtask", "uf2", "pico2"])
-        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
-        .output()
-        .map_err(|error| Trouble::Failed(format!("cannot start cargo: {error}")))?;
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    match output.status.code() {
-        Some(0) => {
-            let uf2 = PathBuf::from(String::from_utf8_lossy(&output.stdout).trim_end());
-            Ok((uf2.with_extension(""), uf2))
-        }
-        Some(MISSING) => Err(Trouble::NotRun(said)),
-        _ => Err(Trouble::Failed(said)),
-    }
+    let uf2 = Checkout::compiled_in().made(&["uf2".as_ref(), "pico2".as_ref()])?;
+    Ok((uf2.with_extension(""), uf2))
 }

@@ -1,13 +1,12 @@
 //! A board's program: built by xtask, changed in place, run by xtask.
 
+use std::ffi::OsStr;
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::Output;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use equivalence_tests::checkout::Checkout;
 use equivalence_tests::harness::Trouble;
-
-/// xtask's exit code where a tool is missing.
-const MISSING: i32 = 3;
 
 /// An ELF file for a board.
 pub(crate) struct Program {
@@ -24,15 +23,9 @@ pub(crate) struct Outcome {
 impl Program {
     /// Builds it, with the `sabotage-*` feature given.
     pub(crate) fn build(board: &str, sabotage: Option<&str>) -> Result<Self, Trouble> {
-        let mut arguments = vec!["build", board];
-        arguments.extend(sabotage.into_iter().flat_map(|sabotage| ["--sabotage", sabotage]));
-        let output = xtask(&arguments)?;
-        if !output.status.success() {
-            return Err(Trouble::Failed(text(&output)));
-        }
-        let path = String::from_utf8_lossy(&output.stdout).trim_end().to_owned();
-        let elf =
-            std::fs::read(&path).map_err(|error| Trouble::Failed(format!("{path}: {error}")))?;
+        let path = Checkout::compiled_in().build(board, sabotage)?;
+        let elf = std::fs::read(&path)
+            .map_err(|error| Trouble::Failed(format!("{}: {error}", path.display())))?;
         Ok(Self { board: board.to_owned(), elf })
     }
 
@@ -82,7 +75,8 @@ impl Program {
         let path = elf.path();
         let mut arguments = vec!["qemu", &path, "--board", &self.board];
         arguments.extend(options);
-        let output = xtask(&arguments)?;
+        let arguments: Vec<&OsStr> = arguments.into_iter().map(OsStr::new).collect();
+        let output = Checkout::compiled_in().xtask(&arguments)?;
         Ok(Outcome { code: output.status.code(), text: text(&output) })
     }
 }
@@ -149,23 +143,6 @@ impl Outcome {
         }
         Err(Trouble::Failed(format!("{about} expected `{text}`, found:\n{}", self.text)))
     }
-}
-
-/// Runs an xtask command; a missing tool is no failure of the test.
-fn xtask(arguments: &[&str]) -> Result<Output, Trouble> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let output = Command::new(cargo)
-        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
-        .args(["xtask"])
-        .args(arguments)
-        .output()
-        .map_err(|error| Trouble::Failed(format!("cannot start cargo: {error}")))?;
-    if output.status.code() == Some(MISSING) {
-        let said = String::from_utf8_lossy(&output.stderr);
-        let reason = said.lines().last().unwrap_or_default();
-        return Err(Trouble::NotRun(reason.trim_start_matches("xtask: ").to_owned()));
-    }
-    Ok(output)
 }
 
 fn text(output: &Output) -> String {

@@ -37,7 +37,7 @@ pub(crate) fn million() -> Result<(), Trouble> {
     let checkout = Checkout::compiled_in();
     let mut jobs = Vec::new();
     for board in boards() {
-        let program = checkout.build(&board, None).map_err(trouble)?;
+        let program = checkout.build(&board, None)?;
         let steps = if board == BOARD { MILLION } else { HUNDRED_THOUSAND };
         jobs.push((board, program, steps));
     }
@@ -113,7 +113,7 @@ pub(crate) fn builds_of_the_host() -> Result<(), Trouble> {
 /// the unchanged host up to there and differ from it there.
 pub(crate) fn one_ulp() -> Result<(), Trouble> {
     let checkout = Checkout::compiled_in();
-    let program = checkout.build(BOARD, None).map_err(trouble)?;
+    let program = checkout.build(BOARD, None)?;
     // The first set of each recurrence: rational tanh, with biases, small weights.
     for number in [0, 3 * PER_KIND, 6 * PER_KIND] {
         let Drive { weights: unchanged, case } = drives(MILLION).swap_remove(number as usize);
@@ -129,7 +129,7 @@ pub(crate) fn one_ulp() -> Result<(), Trouble> {
             }
         }
         let folder = Folder::new()?;
-        let results = checkout.drive(BOARD, &program, &folder.0, &drives).map_err(trouble)?;
+        let results = checkout.drive(BOARD, &program, &folder.0, &drives)?;
         let refused = |error| Trouble::Failed(format!("results refused: {error}"));
         let mut results = ResultsReader::new(results, drives.len() as u32).map_err(refused)?;
         for Drive { weights: changed, case } in &drives {
@@ -170,7 +170,7 @@ pub(crate) fn spoilt_sums() -> Result<(), Trouble> {
     let checkout = Checkout::compiled_in();
     let drives = drives(10);
     for way in ["reordered-sum", "fused-sum"] {
-        let program = checkout.build(BOARD, Some(way)).map_err(trouble)?;
+        let program = checkout.build(BOARD, Some(way))?;
         let tally = prove(&checkout, BOARD, &program, &drives)?;
         let Some(first) = &tally.first else {
             return Err(Trouble::Failed(format!("{way}: not noticed")));
@@ -186,9 +186,9 @@ pub(crate) fn spoilt_sums() -> Result<(), Trouble> {
 
 pub(crate) fn damaged_cases() -> Result<(), Trouble> {
     let checkout = Checkout::compiled_in();
-    let program = checkout.build(BOARD, None).map_err(trouble)?;
+    let program = checkout.build(BOARD, None)?;
     let folder = Folder::new()?;
-    checkout.drive(BOARD, &program, &folder.0, &drives(1)[..2]).map_err(trouble)?;
+    checkout.drive(BOARD, &program, &folder.0, &drives(1)[..2])?;
     let io = |error: std::io::Error| Trouble::Failed(error.to_string());
     let cases = std::fs::read(folder.0.join("cases")).map_err(io)?;
     let mut flipped = cases.clone();
@@ -201,7 +201,7 @@ pub(crate) fn damaged_cases() -> Result<(), Trouble> {
         std::fs::write(folder.0.join("cases"), damaged).map_err(io)?;
         let arguments = [program.as_os_str(), "--prove".as_ref(), folder.0.as_os_str()];
         let arguments: Vec<_> = std::iter::once("qemu".as_ref()).chain(arguments).collect();
-        let output = checkout.xtask(&arguments).map_err(trouble)?;
+        let output = checkout.xtask(&arguments)?;
         let said = String::from_utf8_lossy(&output.stdout);
         if output.status.code() != Some(1) || !said.contains(why) {
             return Err(Trouble::Failed(format!(
@@ -223,20 +223,13 @@ fn prove(
     let mut tally = Tally::default();
     for drives in drives.chunks(PER_RUN) {
         let folder = Folder::new()?;
-        tally.add(checkout.prove(board, program, &folder.0, drives).map_err(trouble)?);
+        tally.add(checkout.prove(board, program, &folder.0, drives)?);
     }
     Ok(tally)
 }
 
 fn pop<T>(jobs: &Mutex<Vec<T>>) -> Option<T> {
     jobs.lock().expect("no panic").pop()
-}
-
-fn trouble(trouble: checkout::Trouble) -> Trouble {
-    match trouble {
-        checkout::Trouble::Missing(said) => Trouble::NotRun(said),
-        checkout::Trouble::Failed(said) => Trouble::Failed(said),
-    }
 }
 
 /// A folder that is gone when it is no longer needed.
