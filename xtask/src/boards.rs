@@ -127,14 +127,6 @@ const fn arm(machine: &'static str) -> Emulator {
     Emulator { program: "qemu-system-arm", package: "qemu-system-arm", machine, options: &[] }
 }
 
-/// The boards named by the operands, or all of them.
-pub(crate) fn chosen(options: &Options) -> Result<Vec<&'static Board>, Failure> {
-    match options.operands.as_slice() {
-        [] => Ok(ALL.iter().collect()),
-        names => names.iter().map(|name| named(name)).collect(),
-    }
-}
-
 /// Every program there is, those of real boards last.
 pub(crate) fn programs() -> impl Iterator<Item = Program> {
     ALL.iter().map(Board::program).chain(REAL.iter().map(|board| board.program))

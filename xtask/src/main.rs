@@ -21,6 +21,7 @@ mod firmware;
 mod lint;
 mod machine;
 mod options;
+mod page;
 mod panic_free;
 mod panics;
 mod process;
@@ -120,8 +121,8 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "size",
-        arguments: "[BOARD]…",
-        summary: "flash and RAM of every board, as a table",
+        arguments: "",
+        summary: "flash, RAM and stack of every board, held to bounds and to the table in the README",
         run: size::run,
     },
 ];

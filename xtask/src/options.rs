@@ -35,7 +35,7 @@ impl TargetSource {
 }
 
 /// What was asked for on the command line.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Options {
     /// First word; none asks for help.
     pub(crate) command: Option<String>,

@@ -51,6 +51,19 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     Ok(())
 }
 
+/// The same for a test run: first that it notices an index that nobody has checked, then for real.
+pub(crate) fn test(options: &Options) -> Result<(), Failure> {
+    let spoiled = Options { sabotage: Some("index".into()), ..options.clone() };
+    match link(boards::named(BOARDS[1])?, &spoiled) {
+        Ok(image) => Err(Failure::failed(format!(
+            "{}: a panic can be reached on purpose, and yet it links",
+            image.display()
+        ))),
+        Err(failure) if failure.to_string().contains("panic_bounds_check") => run(options),
+        Err(failure) => Err(failure),
+    }
+}
+
 fn link(board: &Board, options: &Options) -> Result<PathBuf, Failure> {
     let toolchain = Toolchain::find(options.targets, board.triple)?;
     let Err(failure) = process::run(&mut command(board, toolchain, options)) else {

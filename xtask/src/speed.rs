@@ -4,17 +4,20 @@
 //! one compiler's program.
 
 mod code;
-mod page;
 mod row;
 
 use crate::boards;
 use crate::failure::Failure;
 use crate::firmware;
 use crate::options::Options;
+use crate::page::{self, Place};
 use crate::qemu;
 use crate::targets::Toolchain;
 use code::Code;
 use row::Row;
+
+/// Where the table stands.
+const TABLE: Place = Place { page: "docs/on-the-chip.md", command: "speed" };
 
 /// The board whose system timer the example reads.
 const BOARD: &str = "mps2-an386";
@@ -58,13 +61,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     if !missed.is_empty() {
         return Err(Failure::failed(missed.join("; ")));
     }
-    let compiler = compiler(Toolchain::find(options.targets, board.triple)?)?;
-    page::keep(&compiler, &table)
-}
-
-/// The compiler's version line.
-fn compiler(toolchain: Toolchain) -> Result<String, Failure> {
-    toolchain.version().ok_or_else(|| Failure::failed("the compiler does not tell its version"))
+    let compiler = Toolchain::find(options.targets, board.triple)?.version_line()?;
+    page::keep(&TABLE, &compiler, &table)
 }
 
 /// Every goal that is not reached, as a sentence.

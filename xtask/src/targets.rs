@@ -102,6 +102,11 @@ impl Toolchain {
         }
     }
 
+    /// Its version line, which a table of measurements has to name.
+    pub(crate) fn version_line(self) -> Result<String, Failure> {
+        self.version().ok_or_else(|| Failure::failed("the compiler does not tell its version"))
+    }
+
     /// Its version line.
     pub(crate) fn version(self) -> Option<String> {
         match self {

@@ -12,8 +12,10 @@ use crate::failure::Failure;
 use crate::firmware;
 use crate::lint;
 use crate::options::Options;
+use crate::panic_free;
 use crate::process;
 use crate::qemu;
+use crate::size;
 use crate::speed;
 use crate::tools;
 use tally::Tally;
@@ -26,6 +28,8 @@ const STEPS: &[Step] = &[
     ("tools are here", |options, _| tools::fetch_all(options)),
     ("lint", |options, _| lint::run(options)),
     ("boards build", |options, _| build_boards(options)),
+    ("no panic can be reached", |options, _| panic_free::test(options)),
+    ("flash, RAM and stack", |options, _| size::run(options)),
     ("instructions of a step", |options, _| speed::run(options)),
     ("one tanh on host and board", |options, _| exhaustive::sample(options)),
     ("tests on the host and on the emulated boards", cargo_test),
