@@ -6,6 +6,7 @@ use std::process::Command;
 use crate::boards::{self, Board, Program};
 use crate::failure::Failure;
 use crate::options::Options;
+use crate::panic_free;
 use crate::process;
 use crate::targets::{self, Toolchain};
 
@@ -29,7 +30,7 @@ pub(crate) fn build_program(program: &Program, options: &Options) -> Result<Path
     if let Some(sabotage) = &options.sabotage {
         command.args(["--features", &format!("sabotage-{sabotage}")]);
     }
-    record_stack(&mut command, program.name, toolchain);
+    record_stack(&mut command);
     process::run(&mut command)?;
     let folder = toolchain.target_dir().join(program.triple).join("firmware");
     let built = folder.join(program.name);
@@ -57,12 +58,8 @@ pub(crate) fn build_example(
 /// Lets `cargo rustc` record what each function of the program takes of the stack; arguments after this are
 /// the compiler's.
 ///
-/// The record is a section that stays out of the device. Rust calls the option unstable: it is asked for
-/// by name of the program, so that no other crate takes this for a nightly compiler.
-pub(crate) fn record_stack(command: &mut Command, program: &str, toolchain: Toolchain) {
-    if toolchain == Toolchain::Rustup {
-        command.env("RUSTC_BOOTSTRAP", program.replace('-', "_"));
-    }
+/// The record is a section that stays out of the device.
+pub(crate) fn record_stack(command: &mut Command) {
     command.args(["--", "-Zemit-stack-sizes"]);
 }
 
@@ -83,6 +80,13 @@ fn package_command(verb: &str, program: &Program, toolchain: Toolchain) -> Comma
 /// `cargo <verb>` for the package, made for the processor of this board; features and program are still open.
 pub(crate) fn processor_command(verb: &str, program: &Program, toolchain: Toolchain) -> Command {
     let mut command = toolchain.cargo(verb, program.triple);
+    if toolchain == Toolchain::Rustup {
+        // Rust calls the record of stack sizes unstable. It is allowed to our programs by name, and no other crate
+        // takes this for a nightly compiler. The same value every time: build scripts run again when it changes.
+        let programs = boards::programs().map(|program| program.name.replace('-', "_"));
+        let names: Vec<String> = programs.chain([panic_free::IMAGE.to_owned()]).collect();
+        command.env("RUSTC_BOOTSTRAP", names.join(","));
+    }
     // Here and not in `.cargo/config.toml`: two boards share an instruction set but not a processor.
     let mut flags = vec![format!("-Ctarget-cpu={}", program.cpu)];
     if program.triple.starts_with("riscv") {

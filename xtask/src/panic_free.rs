@@ -12,7 +12,7 @@ use crate::stack;
 use crate::targets::Toolchain;
 
 /// The example that is the program.
-const IMAGE: &str = "panic_free";
+pub(crate) const IMAGE: &str = "panic_free";
 
 /// One board per instruction set: software floats, a floating-point unit, another architecture.
 const BOARDS: [&str; 3] = ["microbit", "mps2-an386", "riscv32-virt"];
@@ -92,7 +92,7 @@ fn command(board: &Board, toolchain: Toolchain, options: &Options) -> std::proce
         features += &format!(",sabotage-{sabotage}");
     }
     command.args(["--features", &features, "--example", IMAGE]);
-    firmware::record_stack(&mut command, IMAGE, toolchain);
+    firmware::record_stack(&mut command);
     // The compiler may look through more calls than in a board's program: what a caller rules out has to reach
     // the division in the `vl53l0x` crate that it would make fail.
     command.arg("-Cllvm-args=-inline-threshold=1000");
