@@ -59,20 +59,24 @@ impl Rational {
     /// tanh of every lane.
     #[inline(always)]
     pub fn tanh<L: Lane>(x: L) -> L {
-        let polynomial = |u: L, coefficients: [f32; 4]| {
-            let mut value = L::from(coefficients[0]);
-            for coefficient in &coefficients[1..] {
-                value = value * u + L::from(*coefficient);
-            }
-            value * u + L::from(1.0)
-        };
         let x = x.held_within(8.089_648);
         let u = x * x;
         let numerator =
-            polynomial(u, [1.384_288_5e-8, 2.095_166_4e-5, 0.003_516_053, 0.133_981_57]);
+            Self::polynomial(u, [1.384_288_5e-8, 2.095_166_4e-5, 0.003_516_053, 0.133_981_57]);
         let denominator =
-            polynomial(u, [7.973_38e-7, 0.000_331_933_8, 0.025_954_522, 0.467_314_75]);
+            Self::polynomial(u, [7.973_38e-7, 0.000_331_933_8, 0.025_954_522, 0.467_314_75]);
         x * numerator / denominator
+    }
+
+    /// Horner's rule down to the constant 1. A function and not a closure, because a closure is
+    /// compiled for the least machine, and its vector instructions then become calls.
+    #[inline(always)]
+    fn polynomial<L: Lane>(u: L, coefficients: [f32; 4]) -> L {
+        let mut value = L::from(coefficients[0]);
+        for coefficient in &coefficients[1..] {
+            value = value * u + L::from(*coefficient);
+        }
+        value * u + L::from(1.0)
     }
 }
 

@@ -11,6 +11,13 @@ use heapless::Deque;
 /// Longest dead time, control periods.
 pub const MAX_DELAY: usize = 8;
 
+/// What the wheels of an [`Actuator`] do, for any number of cars: where they point one control
+/// period later, radians, when they turn from `steer` towards `wanted` by at most `most`.
+#[inline(always)]
+pub fn turned<L: Lane>(steer: L, wanted: L, most: f32) -> L {
+    SteerAngle::safe(steer + (wanted - steer).held_within(most))
+}
+
 /// Delays commands by whole control periods and limits how fast the wheels turn.
 ///
 /// ```

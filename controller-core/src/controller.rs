@@ -2,6 +2,7 @@
 
 use crate::activation::Activation;
 use crate::control_loop::Decide;
+use crate::lane::Lane;
 use crate::network::{Network, Recurrence, State};
 use crate::observation::{Encoding, INPUTS, Reading, ReadingError};
 use crate::units::{SteerAngle, StepLength};
@@ -51,6 +52,23 @@ impl Scaling {
             None => StepLength::from_metres(self.step_upper),
         };
         Command { steer: SteerAngle::from_unit(steer, self.steer_limit), step }
+    }
+
+    /// [`Self::command`] for any number of cars: steer angles in radians, and step lengths in
+    /// metres.
+    #[inline(always)]
+    pub fn commands<L: Lane, const O: usize>(&self, outputs: &[L; O]) -> (L, L) {
+        let zero = L::from(0.0);
+        let Some(&steer) = outputs.first() else { return (zero, zero) };
+        let angle = SteerAngle::safe_from_unit(steer, self.steer_limit);
+        let (known, length) = match outputs.get(1) {
+            Some(&speed) => (
+                steer.le(steer) & speed.le(speed),
+                StepLength::safe_from_unit(speed, self.step_lower, self.step_upper),
+            ),
+            None => (steer.le(steer), StepLength::safe(L::from(self.step_upper))),
+        };
+        (L::select(known, angle, zero), L::select(known, length, zero))
     }
 }
 

@@ -203,16 +203,23 @@ impl Encoding {
     #[inline(always)]
     pub fn inputs<L: Lane>(self, sight: &Sight<L>, range: f32) -> [L; INPUTS] {
         let one = L::from(1.0);
-        let [a, b, c, d, e] = match self.distance {
+        // Loops, not closures: see `activation::Rational::polynomial`.
+        let mut scaled = sight.distance;
+        match self.distance {
             DistanceLaw::Linear => {
                 let scale = L::from(1.0 / range);
-                sight.distance.map(|distance| (distance * scale).min(one))
+                for distance in &mut scaled {
+                    *distance = (*distance * scale).min(one);
+                }
             }
             DistanceLaw::Saturating { half } => {
                 let half = L::from(half);
-                sight.distance.map(|distance| distance / (distance + half))
+                for distance in &mut scaled {
+                    *distance = *distance / (*distance + half);
+                }
             }
-        };
+        }
+        let [a, b, c, d, e] = scaled;
         let (wall, target) = match self.types {
             TypeCode::Any => (any(&sight.wall), any(&sight.target)),
             TypeCode::Nearest => nearest(sight),

@@ -1,5 +1,6 @@
 //! Quantities that reach an actuator, as types whose every value is safe to send.
 
+use crate::lane::Lane;
 use core::f32::consts::FRAC_PI_2;
 
 /// Front-wheel steer angle in radians, positive to the left; always finite and within ±π/2.
@@ -35,6 +36,19 @@ impl SteerAngle {
         if radians.is_nan() { Self::STRAIGHT } else { Self(radians.clamp(-FRAC_PI_2, FRAC_PI_2)) }
     }
 
+    /// [`Self::from_unit`] in radians, for any number of cars.
+    #[inline(always)]
+    pub fn safe_from_unit<L: Lane>(output: L, limit: f32) -> L {
+        Self::safe(output.held_within(1.0) * L::from(limit))
+    }
+
+    /// [`Self::from_radians`] in radians, for any number of cars.
+    #[inline(always)]
+    pub fn safe<L: Lane>(radians: L) -> L {
+        let held = radians.held_within(FRAC_PI_2);
+        L::select(held.le(held), held, L::from(0.0))
+    }
+
     /// The angle in radians.
     #[inline]
     pub fn radians(self) -> f32 {
@@ -64,6 +78,21 @@ impl StepLength {
     pub fn from_unit(output: f32, lower: f32, upper: f32) -> Self {
         let share = (output.clamp(-1.0, 1.0) + 1.0) * 0.5;
         Self::from_metres(lower + share * (upper - lower))
+    }
+
+    /// [`Self::from_unit`] in metres, for any number of cars.
+    #[inline(always)]
+    pub fn safe_from_unit<L: Lane>(output: L, lower: f32, upper: f32) -> L {
+        let share = (output.held_within(1.0) + L::from(1.0)) * L::from(0.5);
+        Self::safe(L::from(lower) + share * L::from(upper - lower))
+    }
+
+    /// [`Self::from_metres`] in metres, for any number of cars.
+    #[inline(always)]
+    pub fn safe<L: Lane>(metres: L) -> L {
+        let zero = L::from(0.0);
+        let moves = zero.lt(metres) & metres.lt(L::from(f32::INFINITY));
+        L::select(moves, metres, zero)
     }
 
     /// The length in metres.

@@ -1,9 +1,10 @@
 //! The fail-safe: what a bad reading does, now and later.
 
 use controller_core::activation::Rational;
-use controller_core::actuator::{Actuator, MAX_DELAY};
+use controller_core::actuator::{Actuator, MAX_DELAY, turned};
 use controller_core::control_loop::{Actuate, Decide, Sense, TickError, tick};
 use controller_core::controller::{Command, Controller, RECOVERY, Scaling};
+use controller_core::lane::Lanes;
 use controller_core::network::{Elman, Network, Recurrence, State};
 use controller_core::observation::{DistanceLaw, Echo, Encoding, Reading, ReadingError, TypeCode};
 use controller_core::units::{SteerAngle, StepLength};
@@ -251,4 +252,62 @@ fn a_servo_rate_that_is_no_rate_holds_the_wheels_and_never_panics() {
         assert_eq!(Actuator::new(0, Some(rate)).act(drive(0.4)).steer, SteerAngle::STRAIGHT);
     }
     assert_eq!(Actuator::new(0, Some(f32::INFINITY)).act(drive(0.4)), drive(0.4));
+}
+
+/// Numbers that a network or a rate may come to, good and bad.
+const NUMBERS: [f32; 16] = [
+    0.0,
+    -0.0,
+    0.25,
+    -0.75,
+    1.0,
+    -1.0,
+    1.5,
+    -9.0,
+    f32::NAN,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    f32::MAX,
+    f32::MIN,
+    1e-42,
+    -1e-42,
+    0.999_999_94,
+];
+
+#[test]
+fn the_commands_of_many_cars_are_those_of_each_car() {
+    let bits = |(steer, step): (f32, f32)| [steer.to_bits(), step.to_bits()];
+    let of = |command: Command| bits((command.steer.radians(), command.step.metres()));
+    let limits = [(0.5, 0.0625, 0.25), (3.0, -0.25, 0.25), (1.0, 0.5, f32::MAX)];
+    for (steer_limit, step_lower, step_upper) in limits {
+        let scaling = Scaling { steer_limit, step_lower, step_upper, ..SCALING };
+        for speed in NUMBERS {
+            let (steer, step) = scaling.commands(&[Lanes(NUMBERS), Lanes::from(speed)]);
+            for (lane, output) in NUMBERS.into_iter().enumerate() {
+                let alone = scaling.command(&[output, speed]);
+                assert_eq!(bits((steer.0[lane], step.0[lane])), of(alone), "{output} {speed}");
+            }
+        }
+        let (steer, step) = scaling.commands(&[Lanes(NUMBERS)]);
+        for (lane, output) in NUMBERS.into_iter().enumerate() {
+            assert_eq!(bits((steer.0[lane], step.0[lane])), of(scaling.command(&[output])));
+        }
+    }
+}
+
+#[test]
+fn the_wheels_of_many_cars_turn_as_those_of_each_car() {
+    for rate in [0.0, 0.3, 7.0] {
+        for wanted in NUMBERS {
+            let wanted = SteerAngle::from_radians(wanted);
+            for from in NUMBERS {
+                let from = SteerAngle::from_radians(from);
+                let wide =
+                    turned(Lanes::<4>::from(from.radians()), Lanes::from(wanted.radians()), rate);
+                let expected = (wanted.radians() - from.radians()).clamp(-rate, rate);
+                let expected = SteerAngle::from_radians(from.radians() + expected).radians();
+                assert_eq!(wide.0[0].to_bits(), expected.to_bits(), "{from:?} {wanted:?} {rate}");
+            }
+        }
+    }
 }

@@ -13,6 +13,31 @@ use controller_core::network::{
 use controller_core::observation::INPUTS;
 use std::fmt;
 
+/// Evaluates an expression with a topology's hidden width and outputs as constants, or another
+/// expression for sizes that are not built in. The one list of sizes that are.
+macro_rules! with_sizes {
+    ($topology:expr, |$hidden:ident, $outputs:ident| $body:expr, else $none:expr) => {
+        with_sizes!(
+            @ $topology, $hidden, $outputs, $body, $none;
+            (12, 1), (12, 2), (16, 1), (16, 2), (24, 1), (24, 2), (32, 1), (32, 2)
+        )
+    };
+    (
+        @ $topology:expr, $hidden:ident, $outputs:ident, $body:expr, $none:expr;
+        $(($h:literal, $o:literal)),*
+    ) => {
+        match ($topology.hidden, $topology.outputs) {
+            $(($h, $o) => {
+                const $hidden: usize = $h;
+                const $outputs: usize = $o;
+                $body
+            })*
+            _ => $none,
+        }
+    };
+}
+pub(crate) use with_sizes;
+
 /// A controller of any size.
 pub trait Brain: Decide {
     /// Forgets everything: the start of another drive.
@@ -90,18 +115,10 @@ fn sized<'a, R: Recurrence + 'a>(
     scaling: Scaling,
     genome: &'a [f32],
 ) -> Option<Box<dyn Brain + 'a>> {
-    macro_rules! pick {
-        ($(($hidden:literal, $outputs:literal)),*) => {
-            match (topology.hidden, topology.outputs) {
-                $(($hidden, $outputs) => {
-                    let network = Network::<R, f32, 7, $hidden, $outputs>::new(genome, topology.biases);
-                    Some(Box::new(Controller::new(network.ok()?, activation, scaling)))
-                })*
-                _ => None,
-            }
-        };
-    }
-    pick!((12, 1), (12, 2), (16, 1), (16, 2), (24, 1), (24, 2), (32, 1), (32, 2))
+    with_sizes!(topology, |H, O| {
+        let network = Network::<R, f32, 7, H, O>::new(genome, topology.biases);
+        Some(Box::new(Controller::new(network.ok()?, activation, scaling)))
+    }, else None)
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
 //! The command line: what was typed, and the exit code it ends in.
 
-use crate::commands::{evaluate, export, inspect, replay, scenario, train, verify};
+use crate::commands::{bench, evaluate, export, inspect, replay, scenario, train, verify};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::signals::{self, StopFlag};
+use crate::vector::Instructions;
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -25,6 +26,7 @@ enum Command {
     Export(export::ExportArgs),
     Inspect(inspect::InspectArgs),
     Verify(verify::VerifyArgs),
+    Bench(bench::BenchArgs),
 }
 
 impl Command {
@@ -37,11 +39,13 @@ impl Command {
             Self::Export(args) => args.json,
             Self::Inspect(args) => args.json,
             Self::Verify(args) => args.json,
+            Self::Bench(args) => args.json,
         }
     }
 
     fn run(&self, output: &mut Output) -> Result<(), Failure> {
         signals::survive_a_full_file()?;
+        Instructions::choose()?;
         match self {
             // Only training has something to save when it is asked to stop.
             Self::Train(args) => train::run(args, &StopFlag::install()?, output),
@@ -51,6 +55,7 @@ impl Command {
             Self::Export(args) => export::run(args, output),
             Self::Inspect(args) => inspect::run(args, output),
             Self::Verify(args) => verify::run(args, output),
+            Self::Bench(args) => bench::run(args, output),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The verbs of `evosteer`, one module each: its options and what it does.
 
 mod advice;
+pub mod bench;
 mod blob_summary;
 pub mod evaluate;
 pub mod export;

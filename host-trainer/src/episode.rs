@@ -145,7 +145,7 @@ const OFFSET_TRIES: u32 = 32;
 
 /// The pair's start, shifted and turned at random where the scenario says so. A shifted start
 /// that overlaps an obstacle, leaves the room or lies behind a wall is drawn again.
-fn start_pose(
+pub(crate) fn start_pose(
     world: &World,
     model: &CarModel,
     spec: &EpisodeSpec,

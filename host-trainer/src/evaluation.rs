@@ -5,7 +5,8 @@ use crate::problem::{Problem, evaluation_drive};
 use crate::scenario::Pair;
 use crate::seed::{RunSeed, Stream};
 use crate::signals::StopFlag;
-use rayon::prelude::*;
+use crate::vector::Instructions;
+use crate::wide::Fleet;
 use serde::Serialize;
 
 /// A share of drives, with its 95 % confidence interval.
@@ -62,15 +63,9 @@ pub fn outcomes(
     place: impl Fn(u32) -> Stream + Sync,
     stop: &StopFlag,
 ) -> Option<Vec<Outcome>> {
-    let drive = |(index, pair): (usize, &Pair)| {
-        if stop.requested().is_some() {
-            return None;
-        }
-        let mut brain = problem.brain(genome).expect("the problem's topology");
-        let place = |_| place(index as u32);
-        Some(problem.drive_all(brain.as_mut(), std::slice::from_ref(pair), place)[0])
-    };
-    pairs.par_iter().enumerate().map(drive).collect()
+    let fleet = Fleet { problem, genomes: genome, pairs, random: &place, again: false };
+    assert_eq!(genome.len(), problem.topology().weights(), "the problem's topology");
+    fleet.drive(Instructions::in_use(), stop).map(|drives| drives.outcomes)
 }
 
 /// How a controller did over many drives.

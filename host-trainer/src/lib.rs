@@ -1,5 +1,6 @@
 //! Simulate, evolve, export: the host half of evosteer.
 
+pub mod bench;
 pub mod blob_file;
 pub mod brain;
 pub mod car;
@@ -26,6 +27,8 @@ pub mod scenario;
 pub mod seed;
 pub mod signals;
 pub mod training;
+pub mod vector;
+pub mod wide;
 pub mod world;
 
 #[cfg(test)]

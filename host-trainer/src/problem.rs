@@ -56,6 +56,16 @@ impl Problem {
         self.scaling
     }
 
+    /// Everything about the car that does not change during a drive.
+    pub(crate) fn model(&self) -> &CarModel {
+        &self.model
+    }
+
+    /// The network's tanh.
+    pub(crate) fn activation(&self) -> ActivationKind {
+        self.activation
+    }
+
     /// The controller over a genome.
     ///
     /// # Errors

@@ -13,7 +13,8 @@ use crate::run_folder::MetricsRow;
 use crate::scenario::{Complaint, Pair, PairSource, Scenario, TrainingSpec};
 use crate::seed::RunSeed;
 use crate::signals::StopFlag;
-use rayon::prelude::*;
+use crate::vector::Instructions;
+use crate::wide::Fleet;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fmt;
@@ -181,9 +182,9 @@ impl<'a> Training<'a> {
         };
         let fitness = &self.problem.scenario.fitness;
         let costs: Vec<Cost> =
-            drives.iter().map(|drives| fitness::total(fitness, drives)).collect();
+            drives.chunks(pairs.len()).map(|drives| fitness::total(fitness, drives)).collect();
         let best = best_index(&costs).expect("a population has at least two individuals");
-        let row = row(generation, &costs, &drives, best);
+        let row = row(generation, &costs, &drives, pairs.len(), best);
         self.keep(generation, costs[best], best);
         self.search.tell(&costs);
         Ok(Some(self.history.push_mut(row)))
@@ -238,8 +239,8 @@ pub fn too_large(scenario: &Scenario) -> Option<Complaint> {
     None
 }
 
-/// Every individual's drives, in order; none once `stop` is raised. An indexed parallel
-/// iterator keeps that order, so threads cannot change the result.
+/// Every individual's drives, all of the first individual, then of the second; none once `stop`
+/// is raised.
 fn judge(
     problem: &Problem,
     seed: RunSeed,
@@ -247,39 +248,38 @@ fn judge(
     pairs: &[Pair],
     generation: u32,
     stop: &StopFlag,
-) -> Option<Vec<Vec<Outcome>>> {
-    let judge = |index: usize| {
-        if stop.requested().is_some() {
-            return None;
-        }
-        let brain = problem.brain(population.genome(index));
-        let mut brain = brain.expect("genomes have the network's length");
-        let place = |drive| training_drive(seed, generation, drive);
-        Some(problem.drive_all(brain.as_mut(), pairs, place))
-    };
-    (0..population.size()).into_par_iter().map(judge).collect()
+) -> Option<Vec<Outcome>> {
+    let random = |pair| training_drive(seed, generation, pair);
+    let fleet =
+        Fleet { problem, genomes: population.genes(), pairs, random: &random, again: false };
+    fleet.drive(Instructions::in_use(), stop).map(|drives| drives.outcomes)
 }
 
-fn row(generation: u32, costs: &[Cost], drives: &[Vec<Outcome>], best: usize) -> MetricsRow {
+fn row(
+    generation: u32,
+    costs: &[Cost],
+    drives: &[Outcome],
+    pairs: usize,
+    best: usize,
+) -> MetricsRow {
     let (mut mean, mut worst) = (0.0, Cost::new(f64::MIN));
     for cost in costs {
         mean += cost.value() / costs.len() as f64;
         worst = worst.max(*cost);
     }
-    let champion = &drives[best];
+    let champion = &drives[best * pairs..][..pairs];
     let count = |drives: &[Outcome], counts: fn(&Outcome) -> bool| {
         drives.iter().filter(|drive| counts(drive)).count()
     };
     let share = |n: usize, of: usize| n as f64 / of as f64;
-    let reached_by_all: usize =
-        drives.iter().map(|drives| count(drives, |drive| drive.reached)).sum();
+    let reached_by_all = count(drives, |drive| drive.reached);
     let reached = count(champion, |drive| drive.reached);
     let (mut distance_to_target, mut path_length) = (0.0, 0.0);
     for drive in champion {
         distance_to_target += f64::from(drive.distance_to_target);
         path_length += f64::from(drive.path_length);
     }
-    let live_steps = drives.iter().flatten().map(|drive| u64::from(drive.steps)).sum();
+    let live_steps = drives.iter().map(|drive| u64::from(drive.steps)).sum();
     MetricsRow {
         generation,
         best: costs[best].value(),
@@ -291,7 +291,7 @@ fn row(generation: u32, costs: &[Cost], drives: &[Vec<Outcome>], best: usize) ->
         path_length,
         reached: share(reached, champion.len()),
         clean: share(count(champion, Outcome::clean), champion.len()),
-        population_reached: share(reached_by_all, champion.len() * drives.len()),
+        population_reached: share(reached_by_all, drives.len()),
         live_steps,
     }
 }

@@ -116,7 +116,7 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "bench",
         arguments: "",
-        summary: "what a beam costs against the number of obstacles, on this machine",
+        summary: "the simulator's speed: steps per second at every width of this CPU, a paper-size run, beams",
         run: bench::run,
     },
     Command {

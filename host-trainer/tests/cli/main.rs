@@ -9,6 +9,7 @@ mod next_steps;
 mod refusals;
 mod run_folders;
 mod same_seed;
+mod speed;
 #[cfg(unix)]
 mod streams;
 mod verify;

@@ -1,6 +1,7 @@
 //! One seed gives the same bytes, whatever the machine does meanwhile.
 
 use super::bench::{Bench, Done};
+use host_trainer::vector::{Instructions, OVERRIDE};
 
 #[test]
 fn any_number_of_threads_leaves_the_same_files() {
@@ -19,6 +20,21 @@ fn any_number_of_threads_leaves_the_same_files() {
     }
     let checkpoint = "checkpoint-a.bin";
     assert_eq!(bench.all_files("1")[checkpoint], bench.all_files("7")[checkpoint]);
+}
+
+#[test]
+fn any_vector_instructions_leave_the_same_files() {
+    let bench = Bench::new();
+    let sets: Vec<String> = Instructions::available().map(|set| set.to_string()).collect();
+    for set in &sets {
+        let mut command = bench.program(["train", "small-car", "--out", set, "--threads=2"]);
+        command.args(super::bench::TINY).env(OVERRIDE, set);
+        Done::from(command.output().unwrap()).ends_in(0);
+        assert!(bench.results(&sets[0]) == bench.results(set), "{set} differs from {}", sets[0]);
+    }
+    if sets.len() < Instructions::ALL.len() {
+        super::bench::not_run(&format!("this CPU has only {}", sets.join(", ")));
+    }
 }
 
 #[test]

@@ -1,0 +1,130 @@
+//! Every width against plain `f32`, as bits, over numbers that break shortcuts.
+
+use super::{Eight, Instructions, Kernel, Slots, Vector};
+use crate::seed::{Purpose, RunSeed};
+use controller_core::lane::Lane;
+
+const SPECIAL: [f32; 12] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    f32::NAN,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    f32::MIN_POSITIVE,
+    -f32::MIN_POSITIVE,
+    1e-42,
+    f32::MAX,
+    0.1,
+];
+
+fn operands() -> Vec<[f32; 2]> {
+    let mut pairs: Vec<[f32; 2]> = SPECIAL.iter().flat_map(|a| SPECIAL.map(|b| [*a, b])).collect();
+    let mut random = RunSeed(61).stream(Purpose::Episode, 0, 0);
+    while !pairs.len().is_multiple_of(32) || pairs.len() < 4096 {
+        pairs.push([random.within(-2.0, 2.0), random.within(-2.0, 2.0)]);
+    }
+    pairs
+}
+
+/// All that a lane can do with two numbers.
+#[inline(always)]
+fn everything<L: Lane>(a: L, b: L) -> [L; 15] {
+    let (one, zero) = (L::from(1.0), L::from(0.0));
+    let yes = |mask: L::Mask| L::select(mask, one, zero);
+    [
+        a + b,
+        a - b,
+        a * b,
+        a / b,
+        -a,
+        a.abs(),
+        a.sqrt(),
+        a.min(b),
+        a.max(b),
+        a.held_within(0.5),
+        yes(a.lt(b)),
+        yes(a.le(b)),
+        yes(a.lt(b) & !(b.le(one))),
+        yes(a.lt(b) | zero.lt(b)),
+        a.map(|x| x + 1.0),
+    ]
+}
+
+/// Any NaN is as good as another: their bits are the platform's own affair, and no drive has one.
+fn bits(number: f32) -> u32 {
+    if number.is_nan() { f32::NAN.to_bits() } else { number.to_bits() }
+}
+
+struct Compare;
+
+impl Kernel for Compare {
+    type Output = (usize, usize);
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> (usize, usize) {
+        let mut compared = 0;
+        for chunk in operands().chunks_exact(2 * V::WIDTH) {
+            let (mut a, mut b) = (Slots::<V, 2>::from(0.0), Slots::<V, 2>::from(0.0));
+            for (i, [x, y]) in chunk.iter().enumerate() {
+                a.numbers_mut()[i] = *x;
+                b.numbers_mut()[i] = *y;
+            }
+            let wide = everything(a, b);
+            for (i, [x, y]) in chunk.iter().enumerate() {
+                for (which, (wide, scalar)) in wide.iter().zip(everything(*x, *y)).enumerate() {
+                    let found = wide.numbers()[i];
+                    assert_eq!(bits(found), bits(scalar), "operation {which} of {x} and {y}");
+                    compared += 1;
+                }
+            }
+            let less = Slots::<V, 2>::bits(a.lt(b));
+            for (i, [x, y]) in chunk.iter().enumerate() {
+                assert_eq!(less[i / V::WIDTH] >> (i % V::WIDTH) & 1 == 1, x < y);
+            }
+        }
+        (V::WIDTH, compared)
+    }
+}
+
+#[test]
+fn every_width_computes_the_bits_of_a_single_number() {
+    for set in Instructions::available() {
+        assert_eq!(set.run(Compare), (set.width(), 15 * operands().len()), "{set}");
+    }
+}
+
+struct Eights;
+
+impl Kernel for Eights {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        for chunk in operands().as_chunks::<8>().0 {
+            let [a, b] = [0, 1].map(|side| chunk.map(|pair| pair[side]));
+            let (wide_a, wide_b) = (V::Eight::load(&a), V::Eight::load(&b));
+            assert_eq!(V::Eight::any(wide_a.lt(wide_b)), a.iter().zip(b).any(|(a, b)| *a < b));
+            let nearest = wide_a.abs().min(wide_b.abs()).max(V::Eight::from(0.0)).least();
+            let one_by_one = a.iter().zip(b).map(|(a, b)| Lane::min(a.abs(), b.abs()).max(0.0));
+            assert_eq!(nearest, one_by_one.fold(f32::INFINITY, |least, x| Lane::min(x, least)));
+        }
+    }
+}
+
+#[test]
+fn eight_at_a_time_are_the_same_eight_in_every_width() {
+    for set in Instructions::available() {
+        set.run(Eights);
+    }
+}
+
+#[test]
+fn a_set_of_instructions_reads_back_as_it_prints() {
+    for set in Instructions::available() {
+        assert_eq!(set.to_string().parse(), Ok(set));
+    }
+    let refused = "avx9".parse::<Instructions>().unwrap_err().to_string();
+    assert!(refused.starts_with("found \"avx9\", expected what this CPU has: scalar"), "{refused}");
+}

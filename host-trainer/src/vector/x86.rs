@@ -1,0 +1,328 @@
+//! Vectors in the registers of an x86: 4 numbers (SSE2), 8 (AVX2), 16 (AVX-512).
+//!
+//! The one place with `unsafe` in this crate. Rust's vector instructions are `unsafe` to call
+//! where the compiler does not know that the CPU has them. Here [`run`] asks the CPU before it
+//! names [`Wide8`] or [`Wide16`]; no other module can name them, so their operations run only on
+//! CPUs that have them. (A token in each value would prove that to the compiler, but a lane must
+//! be made from a bare `f32`.)
+#![allow(unsafe_code)]
+
+use super::{Eight, Instructions, Kernel, Neurons, Part, Slots, Vector, Whole, each};
+use bytemuck::{Pod, Zeroable};
+use controller_core::lane::Lane;
+use core::arch::x86_64::*;
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+/// Four numbers.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub(super) struct Wide4(__m128);
+
+/// Eight numbers; only named after [`has_avx2`].
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub(super) struct Wide8(__m256);
+
+/// Sixteen numbers; only named after [`has_avx512`].
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub(super) struct Wide16(__m512);
+
+/// Whether this CPU has what [`Wide8`] needs.
+pub(super) fn has_avx2() -> bool {
+    is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi2")
+}
+
+/// Whether this CPU has what [`Wide16`] needs.
+pub(super) fn has_avx512() -> bool {
+    has_avx2()
+        && is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("avx512vl")
+        && is_x86_feature_detected!("avx512bw")
+}
+
+/// Runs the kernel with these instructions, which this CPU has.
+pub(super) fn run<K: Kernel>(instructions: Instructions, kernel: K) -> K::Output {
+    match instructions {
+        Instructions::Avx512 if has_avx512() => Wide16::apart(Whole(kernel)),
+        Instructions::Avx512 | Instructions::Avx2 if has_avx2() => Wide8::apart(Whole(kernel)),
+        Instructions::Scalar => f32::apart(Whole(kernel)),
+        _ => Wide4::apart(Whole(kernel)),
+    }
+}
+
+#[inline(never)]
+#[target_feature(enable = "avx2,bmi2")]
+fn with_avx2<P: Part<Wide8>>(part: P) -> P::Output {
+    part.run()
+}
+
+#[inline(never)]
+#[target_feature(enable = "avx2,bmi2,avx512f,avx512dq,avx512vl,avx512bw")]
+fn with_avx512<P: Part<Wide16>>(part: P) -> P::Output {
+    part.run()
+}
+
+macro_rules! operator {
+    ($name:ident, $trait:ident :: $method:ident, $instruction:ident) => {
+        impl $trait for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: this type is only named where the CPU has its instructions.
+                Self(unsafe { $instruction(self.0, other.0) })
+            }
+        }
+    };
+}
+
+/// Implements [`Lane`] and what it asks for. `min` and `max` of an x86 answer their second
+/// operand where either is NaN or both are zero, which is exactly what [`Lane::min`] says.
+macro_rules! lane {
+    (
+        $name:ident, $mask:ident,
+        $add:ident, $sub:ident, $mul:ident, $div:ident, $min:ident, $max:ident, $sqrt:ident,
+        $splat:ident, and_not: $and_not:ident, xor: $xor:ident,
+        |$a:ident, $b:ident| lt: $lt:expr, le: $le:expr, |$m:ident| select: $select:expr
+    ) => {
+        operator!($name, Add::add, $add);
+        operator!($name, Sub::sub, $sub);
+        operator!($name, Mul::mul, $mul);
+        operator!($name, Div::div, $div);
+
+        // SAFETY: a register of `f32`s, without padding; all bits are allowed.
+        unsafe impl Zeroable for $name {}
+        // SAFETY: as above.
+        unsafe impl Pod for $name {}
+
+        impl From<f32> for $name {
+            #[inline(always)]
+            fn from(value: f32) -> Self {
+                // SAFETY: this type is only named where the CPU has its instructions.
+                Self(unsafe { $splat(value) })
+            }
+        }
+
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                // SAFETY: this type is only named where the CPU has its instructions.
+                Self(unsafe { $xor(self.0, $splat(-0.0)) })
+            }
+        }
+
+        impl Lane for $name {
+            type Mask = $mask;
+
+            #[inline(always)]
+            fn lt(self, other: Self) -> $mask {
+                let ($a, $b) = (self.0, other.0);
+                // SAFETY: this type is only named where the CPU has its instructions.
+                $mask(unsafe { $lt })
+            }
+
+            #[inline(always)]
+            fn le(self, other: Self) -> $mask {
+                let ($a, $b) = (self.0, other.0);
+                // SAFETY: this type is only named where the CPU has its instructions.
+                $mask(unsafe { $le })
+            }
+
+            #[inline(always)]
+            fn select(mask: $mask, yes: Self, no: Self) -> Self {
+                let ($m, $a, $b) = (mask.0, yes.0, no.0);
+                // SAFETY: this type is only named where the CPU has its instructions.
+                Self(unsafe { $select })
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                // SAFETY: this type is only named where the CPU has its instructions.
+                Self(unsafe { $and_not($splat(-0.0), self.0) })
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                // SAFETY: this type is only named where the CPU has its instructions.
+                Self(unsafe { $sqrt(self.0) })
+            }
+
+            #[inline(always)]
+            fn map(mut self, f: impl Fn(f32) -> f32) -> Self {
+                each(self.lanes_mut(), f);
+                self
+            }
+
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                // SAFETY: this type is only named where the CPU has its instructions.
+                Self(unsafe { $min(self.0, other.0) })
+            }
+
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                // SAFETY: this type is only named where the CPU has its instructions.
+                Self(unsafe { $max(self.0, other.0) })
+            }
+
+            /// The limit comes first, so that NaN stays NaN.
+            #[inline(always)]
+            fn held_within(self, limit: f32) -> Self {
+                Self::from(-limit).max(Self::from(limit).min(self))
+            }
+        }
+    };
+}
+
+/// Implements a mask of whole words, up to AVX2.
+macro_rules! mask {
+    ($name:ident, $raw:ty, $and:ident, $or:ident, |$a:ident| not: $not:expr) => {
+        /// One answer per lane, all bits of a word alike.
+        #[derive(Clone, Copy, Debug)]
+        pub(super) struct $name($raw);
+
+        operator!($name, BitAnd::bitand, $and);
+        operator!($name, BitOr::bitor, $or);
+
+        impl Not for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn not(self) -> Self {
+                let $a = self.0;
+                // SAFETY: this type is only named where the CPU has its instructions.
+                Self(unsafe { $not })
+            }
+        }
+    };
+}
+
+/// One answer per lane, a bit each, lane 0 lowest.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mask16(__mmask16);
+
+impl BitAnd for Mask16 {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+}
+
+impl BitOr for Mask16 {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+impl Not for Mask16 {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0)
+    }
+}
+
+lane!(
+    Wide4, Mask4,
+    _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, _mm_min_ps, _mm_max_ps, _mm_sqrt_ps,
+    _mm_set1_ps, and_not: _mm_andnot_ps, xor: _mm_xor_ps,
+    |a, b| lt: _mm_cmplt_ps(a, b), le: _mm_cmple_ps(a, b),
+    |m| select: _mm_or_ps(_mm_and_ps(m, a), _mm_andnot_ps(m, b))
+);
+mask!(
+    Mask4, __m128, _mm_and_ps, _mm_or_ps,
+    |a| not: _mm_xor_ps(a, _mm_castsi128_ps(_mm_set1_epi32(-1)))
+);
+
+lane!(
+    Wide8, Mask8,
+    _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_min_ps, _mm256_max_ps,
+    _mm256_sqrt_ps, _mm256_set1_ps, and_not: _mm256_andnot_ps, xor: _mm256_xor_ps,
+    |a, b| lt: _mm256_cmp_ps::<_CMP_LT_OQ>(a, b), le: _mm256_cmp_ps::<_CMP_LE_OQ>(a, b),
+    |m| select: _mm256_blendv_ps(b, a, m)
+);
+mask!(
+    Mask8, __m256, _mm256_and_ps, _mm256_or_ps,
+    |a| not: _mm256_xor_ps(a, _mm256_castsi256_ps(_mm256_set1_epi32(-1)))
+);
+
+lane!(
+    Wide16, Mask16,
+    _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_min_ps, _mm512_max_ps,
+    _mm512_sqrt_ps, _mm512_set1_ps, and_not: _mm512_andnot_ps, xor: _mm512_xor_ps,
+    |a, b| lt: _mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b), le: _mm512_cmp_ps_mask::<_CMP_LE_OQ>(a, b),
+    |m| select: _mm512_mask_blend_ps(m, b, a)
+);
+
+impl Vector for Wide4 {
+    const WIDTH: usize = 4;
+    const NEURONS: Neurons = Neurons::Two;
+    type Eight = Slots<Self, 2>;
+
+    #[inline(always)]
+    fn bits(mask: Mask4) -> u32 {
+        // SAFETY: every x86-64 has SSE2.
+        unsafe { _mm_movemask_ps(mask.0) as u32 }
+    }
+
+    #[inline(never)]
+    fn apart<P: Part<Self>>(part: P) -> P::Output {
+        part.run()
+    }
+}
+
+impl Vector for Wide8 {
+    const WIDTH: usize = 8;
+    const NEURONS: Neurons = Neurons::Two;
+    type Eight = Self;
+
+    #[inline(always)]
+    fn bits(mask: Mask8) -> u32 {
+        // SAFETY: this type is only named where the CPU has its instructions.
+        unsafe { _mm256_movemask_ps(mask.0) as u32 }
+    }
+
+    #[inline(always)]
+    fn apart<P: Part<Self>>(part: P) -> P::Output {
+        // SAFETY: this type is only named where the CPU has its instructions.
+        unsafe { with_avx2(part) }
+    }
+}
+
+impl Vector for Wide16 {
+    const WIDTH: usize = 16;
+    const NEURONS: Neurons = Neurons::Four;
+    type Eight = Wide8;
+
+    #[inline(always)]
+    fn bits(mask: Mask16) -> u32 {
+        u32::from(mask.0)
+    }
+
+    #[inline(always)]
+    fn apart<P: Part<Self>>(part: P) -> P::Output {
+        // SAFETY: this type is only named where the CPU has its instructions.
+        unsafe { with_avx512(part) }
+    }
+}
+
+impl Eight for Wide8 {
+    #[inline(always)]
+    fn load(numbers: &[f32; 8]) -> Self {
+        bytemuck::must_cast(*numbers)
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [f32; 8] {
+        bytemuck::must_cast(self)
+    }
+
+    #[inline(always)]
+    fn any(mask: Mask8) -> bool {
+        Self::bits(mask) != 0
+    }
+}

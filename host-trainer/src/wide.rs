@@ -1,0 +1,125 @@
+//! Many drives at once, for training and evaluation.
+//!
+//! A *block* drives [`SLOTS`] cars in each lane of this CPU's vectors. A lane belongs to one
+//! individual, whose weights are a column of the block's weights; its cars drive that
+//! individual's pairs. A car whose drive has ended takes the next pair, a lane whose individual
+//! is done the next individual, until there is nothing left to drive. Drives end when they
+//! like, so lanes and order are a matter of chance; outcomes are kept by individual and pair.
+//!
+//! [`episode::drive`](crate::episode::drive) is the reference: every operation here is the same
+//! generic function over a wider lane, or the same function called for one car after the other
+//! (what it sees, what it touches, its noise), so each outcome has the bits of that drive.
+//!
+//! | look in | for |
+//! | --- | --- |
+//! | `queue` | who drives what next |
+//! | `block` | lanes and slots, and what happens when a drive ends |
+//! | `cars` | one car in each lane: what they see, how they move |
+//! | `forward` | the networks of all cars, sizes known at run time |
+
+mod block;
+mod cars;
+mod forward;
+mod queue;
+
+use crate::episode::Outcome;
+use crate::problem::Problem;
+use crate::scenario::Pair;
+use crate::seed::Stream;
+use crate::signals::StopFlag;
+use crate::vector::{Instructions, Kernel, Vector};
+use block::Block;
+use queue::Queue;
+
+/// Cars in each lane. Five share each load of a weight, keep the CPU's arithmetic busy, and
+/// are as many as the pairs of the paper's training.
+pub const SLOTS: usize = 5;
+
+/// What is to be driven: every individual drives every pair.
+pub struct Fleet<'a> {
+    /// World, car and network.
+    pub problem: &'a Problem,
+    /// The individuals' genomes one after the other, each of the problem's topology.
+    pub genomes: &'a [f32],
+    /// The pairs.
+    pub pairs: &'a [Pair],
+    /// The random numbers of the drive of each pair, the same for every individual.
+    pub random: &'a (dyn Fn(u32) -> Stream + Sync),
+    /// Whether a car whose drive has ended starts it again until the step limit, so that every
+    /// individual makes the same number of steps. The outcome is that of the first drive.
+    pub again: bool,
+}
+
+/// How a fleet's drives went.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drives {
+    /// Of each individual and pair: all pairs of the first individual, then of the second.
+    pub outcomes: Vec<Outcome>,
+    /// What happened on the way.
+    pub tally: Tally,
+}
+
+/// What happened in a fleet's drives, those that were driven again included.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Control periods of all cars.
+    pub steps: u64,
+    /// Drives that a collision ended.
+    pub stopped: u64,
+    /// Drives that reached their target.
+    pub reached: u64,
+}
+
+impl Fleet<'_> {
+    fn individuals(&self) -> usize {
+        self.genomes.len() / self.problem.topology().weights()
+    }
+
+    /// Drives on the current rayon pool; none once `stop` is raised.
+    pub fn drive(&self, instructions: Instructions, stop: &StopFlag) -> Option<Drives> {
+        let drives = self.individuals() * self.pairs.len();
+        let threads = rayon::current_num_threads();
+        let queue = Queue::new(self.individuals(), self.pairs.len(), threads, instructions, stop);
+        let work =
+            |_: rayon::BroadcastContext<'_>| instructions.run(Work { fleet: self, queue: &queue });
+        let done = rayon::broadcast(work);
+        if stop.requested().is_some() {
+            return None;
+        }
+        let mut all = Drives { outcomes: vec![Outcome::default(); drives], ..Drives::default() };
+        for (outcomes, tally) in done {
+            for (index, outcome) in outcomes {
+                all.outcomes[index] = outcome;
+            }
+            all.tally.steps += tally.steps;
+            all.tally.stopped += tally.stopped;
+            all.tally.reached += tally.reached;
+        }
+        Some(all)
+    }
+}
+
+/// What one thread does.
+struct Work<'a> {
+    fleet: &'a Fleet<'a>,
+    queue: &'a Queue<'a>,
+}
+
+/// Outcomes with their places, and what else happened.
+type Done = (Vec<(usize, Outcome)>, Tally);
+
+impl Kernel for Work<'_> {
+    type Output = Done;
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> Done {
+        let mut block = Block::<V>::new(self.fleet, self.queue);
+        while block.fill() {
+            block.step();
+        }
+        block.done()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,244 @@
+//! One car in each lane: what they see, and how they move.
+
+use crate::car::{CarModel, Exemplar};
+use crate::episode::Outcome;
+use crate::seed::Stream;
+use crate::vector::Vector;
+use crate::world::{World, distance};
+use controller_core::actuator::turned;
+use controller_core::geometry::{Disc, Ray};
+use controller_core::motion::Pose;
+use controller_core::observation::{BEAMS, Echo, Sight};
+
+/// Cars side by side. Lanes without a drive hold a car that stands still; nobody asks it.
+#[derive(Debug)]
+pub(super) struct Cars<V> {
+    pose: Pose<V>,
+    target: Disc<V>,
+    wheelbase: V,
+    step_scale: V,
+    steer_offset: V,
+    steer: V,
+    /// Commands on their way to the wheels and the motor, as many as the dead time has periods.
+    waiting: Vec<[V; 2]>,
+    due: usize,
+    path_length: V,
+    collisions: V,
+    /// 1 where the last period ended in a collision, else 0.
+    blocked: V,
+    /// Noise and dropped beams of each car, where there are any.
+    random: Vec<Option<Stream>>,
+    /// Lanes with a drive, as bits.
+    pub(super) live: u32,
+}
+
+/// Which cars' period ended how, as bits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ends {
+    /// In a collision.
+    pub(super) collided: u32,
+    /// At the target.
+    pub(super) reached: u32,
+}
+
+impl<V: Vector> Cars<V> {
+    /// Cars of this model that stand somewhere.
+    pub(super) fn new(model: &CarModel, target_radius: f32) -> Self {
+        let zero = V::from(0.0);
+        let one = V::from(1.0);
+        Self {
+            pose: Pose { x: zero, y: zero, heading: zero, cos: one, sin: zero },
+            target: Disc { centre: (zero, zero), radius: V::from(target_radius) },
+            wheelbase: one,
+            step_scale: one,
+            steer_offset: zero,
+            steer: zero,
+            waiting: vec![[zero; 2]; model.delay()],
+            due: 0,
+            path_length: zero,
+            collisions: zero,
+            blocked: zero,
+            random: (0..V::WIDTH).map(|_| None).collect(),
+            live: 0,
+        }
+    }
+
+    /// Puts a car at its start.
+    pub(super) fn put(
+        &mut self,
+        lane: usize,
+        start: &Pose<f32>,
+        goal: [f32; 2],
+        exemplar: &Exemplar,
+        random: Option<Stream>,
+    ) {
+        let Self { pose, target, .. } = self;
+        let places = [
+            (&mut pose.x, start.x),
+            (&mut pose.y, start.y),
+            (&mut pose.heading, start.heading),
+            (&mut pose.cos, start.cos),
+            (&mut pose.sin, start.sin),
+            (&mut target.centre.0, goal[0]),
+            (&mut target.centre.1, goal[1]),
+            (&mut self.wheelbase, exemplar.wheelbase),
+            (&mut self.step_scale, exemplar.step_scale),
+            (&mut self.steer_offset, exemplar.steer_offset),
+            (&mut self.steer, 0.0),
+            (&mut self.path_length, 0.0),
+            (&mut self.collisions, 0.0),
+            (&mut self.blocked, 0.0),
+        ];
+        for (place, value) in places {
+            place.lanes_mut()[lane] = value;
+        }
+        for value in self.waiting.iter_mut().flatten() {
+            value.lanes_mut()[lane] = 0.0;
+        }
+        self.random[lane] = random;
+        self.live |= 1 << lane;
+    }
+
+    /// How the drive in this lane has gone so far.
+    pub(super) fn outcome(&self, lane: usize, steps: u32, reached: bool) -> Outcome {
+        let at = |(x, y): (V, V)| [x.lanes()[lane], y.lanes()[lane]];
+        Outcome {
+            reached,
+            collisions: self.collisions.lanes()[lane] as u32,
+            steps,
+            path_length: self.path_length.lanes()[lane],
+            distance_to_target: distance(at((self.pose.x, self.pose.y)), at(self.target.centre)),
+        }
+    }
+
+    /// Where the car in this lane stands.
+    #[cfg(test)]
+    pub(super) fn pose(&self, lane: usize) -> Pose<f32> {
+        pose_of(&self.pose, lane)
+    }
+
+    /// What the beams report.
+    #[inline(always)]
+    pub(super) fn sense(&mut self, model: &CarModel, world: &World) -> Sight<V> {
+        let rays = model.rays(&self.pose);
+        let mut walls = [V::from(f32::INFINITY); BEAMS];
+        for lane in lanes(self.live) {
+            for (wall, ray) in walls.iter_mut().zip(&rays) {
+                let ray = Ray {
+                    origin: (ray.origin.0.lanes()[lane], ray.origin.1.lanes()[lane]),
+                    direction: (ray.direction.0.lanes()[lane], ray.direction.1.lanes()[lane]),
+                };
+                wall.lanes_mut()[lane] = world.distance(&ray, model.range());
+            }
+        }
+        let (zero, one) = (V::from(0.0), V::from(1.0));
+        let mut sight = Sight {
+            distance: [V::from(model.range()); BEAMS],
+            wall: [zero; BEAMS],
+            target: [zero; BEAMS],
+        };
+        for beam in 0..BEAMS {
+            let target = rays[beam].to_disc(&self.target);
+            let hit = model.hit(walls[beam], target);
+            let distance = V::select(hit.wall, walls[beam], sight.distance[beam]);
+            sight.distance[beam] = V::select(hit.target, target, distance);
+            sight.wall[beam] = V::select(hit.wall, one, zero);
+            sight.target[beam] = V::select(hit.target, one, zero);
+        }
+        if model.is_disturbed() {
+            self.disturb(&mut sight, model);
+        }
+        sight
+    }
+
+    /// The same through imperfect sensors, car by car and beam by beam.
+    #[inline(never)]
+    fn disturb(&mut self, sight: &mut Sight<V>, model: &CarModel) {
+        for lane in lanes(self.live) {
+            let Some(random) = &mut self.random[lane] else { continue };
+            for beam in 0..BEAMS {
+                let distance = &mut sight.distance[beam].lanes_mut()[lane];
+                let wall = &mut sight.wall[beam].lanes_mut()[lane];
+                let target = &mut sight.target[beam].lanes_mut()[lane];
+                let echo = match (*wall != 0.0, *target != 0.0) {
+                    (_, true) => Echo::Target(*distance),
+                    (true, false) => Echo::Wall(*distance),
+                    (false, false) => Echo::Nothing,
+                };
+                (*distance, *wall, *target) = match model.disturbed(echo, random) {
+                    Echo::Nothing => (model.range(), 0.0, 0.0),
+                    Echo::Wall(distance) => (distance, 1.0, 0.0),
+                    Echo::Target(distance) => (distance, 0.0, 1.0),
+                };
+            }
+        }
+    }
+
+    /// Moves one control period after these commands: steer angles and step lengths.
+    #[inline(always)]
+    pub(super) fn act(
+        &mut self,
+        (mut angle, mut length): (V, V),
+        model: &CarModel,
+        world: &World,
+    ) -> Ends {
+        if let Some(waiting) = self.waiting.get_mut(self.due) {
+            let [due_angle, due_length] = *waiting;
+            *waiting = [angle, length];
+            (angle, length) = (due_angle, due_length);
+            self.due = (self.due + 1) % self.waiting.len();
+        }
+        self.steer = match model.turn_per_period() {
+            None => angle,
+            Some(most) => turned(self.steer, angle, most),
+        };
+        let step = length * self.step_scale;
+        let moved = self.pose.driven(self.steer + self.steer_offset, step, self.wheelbase);
+        let zero = V::from(0.0);
+        let was_blocked = V::bits(zero.lt(self.blocked));
+        let mut blocked = zero;
+        for lane in lanes(self.live) {
+            let pose = pose_of(&moved, lane);
+            let jumps = || {
+                let (x, y) = (self.pose.x.lanes()[lane], self.pose.y.lanes()[lane]);
+                was_blocked >> lane & 1 == 1 && world.separates([x, y], [pose.x, pose.y])
+            };
+            if world.touches(model.body(), &pose) || jumps() {
+                blocked.lanes_mut()[lane] = 1.0;
+            }
+        }
+        self.blocked = blocked;
+        let collided = zero.lt(blocked);
+        self.collisions = self.collisions + blocked;
+        self.path_length = V::select(collided, self.path_length, self.path_length + step);
+        self.pose.x = V::select(collided, self.pose.x, moved.x);
+        self.pose.y = V::select(collided, self.pose.y, moved.y);
+        (self.pose.heading, self.pose.cos, self.pose.sin) = (moved.heading, moved.cos, moved.sin);
+        let mut reached = V::bits(model.touches_target(&self.pose, &self.target));
+        let collided = V::bits(zero.lt(self.blocked)) & self.live;
+        if model.stops_on_collision() {
+            reached &= !collided;
+        }
+        Ends { collided, reached: reached & self.live }
+    }
+}
+
+#[inline(always)]
+fn pose_of<V: Vector>(pose: &Pose<V>, lane: usize) -> Pose<f32> {
+    Pose {
+        x: pose.x.lanes()[lane],
+        y: pose.y.lanes()[lane],
+        heading: pose.heading.lanes()[lane],
+        cos: pose.cos.lanes()[lane],
+        sin: pose.sin.lanes()[lane],
+    }
+}
+
+/// The places of the bits that are set, lowest first.
+pub(super) fn lanes(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = bits.trailing_zeros();
+        bits &= bits.checked_sub(1)?;
+        Some(lane as usize)
+    })
+}

@@ -1,0 +1,137 @@
+//! One step of the networks of all cars, of sizes that are known only at run time.
+
+use super::SLOTS;
+use crate::brain::with_sizes;
+use crate::vector::{Neurons, Part, Slots, Vector, Weight};
+use controller_core::activation::ActivationKind;
+use controller_core::network::{
+    Elman, Feedforward, Network, Recurrence, RecurrenceKind, SelfLoop, State, Topology,
+};
+use controller_core::observation::INPUTS;
+use std::marker::PhantomData;
+
+/// Most outputs of a network: steering and speed.
+pub(super) const OUTPUTS: usize = 2;
+
+/// One number of every car.
+type All<V> = Slots<V, SLOTS>;
+
+/// Networks of one topology, one individual per lane, with a memory per car.
+pub(super) struct Networks<V> {
+    weights: Vec<Weight<V>>,
+    memory: Box<dyn Memory<V>>,
+    /// What the networks are asked; to be written before [`Self::step`].
+    pub(super) inputs: [All<V>; INPUTS],
+    /// What they answered; zero where there is no such output.
+    pub(super) outputs: [All<V>; OUTPUTS],
+}
+
+impl<V: Vector> Networks<V> {
+    /// Networks whose weights are all zero.
+    pub(super) fn new(topology: Topology, activation: ActivationKind) -> Self {
+        let zero = All::<V>::from(0.0);
+        let memory = match topology.recurrence {
+            RecurrenceKind::Feedforward => memory::<V, Feedforward>(topology, activation),
+            RecurrenceKind::SelfLoop => memory::<V, SelfLoop>(topology, activation),
+            RecurrenceKind::Elman => memory::<V, Elman>(topology, activation),
+        };
+        Self {
+            weights: vec![Weight(V::from(0.0)); topology.weights()],
+            memory,
+            inputs: [zero; INPUTS],
+            outputs: [zero; OUTPUTS],
+        }
+    }
+
+    /// Gives a lane to another individual.
+    pub(super) fn load(&mut self, lane: usize, genome: &[f32]) {
+        for (weight, gene) in self.weights.iter_mut().zip(genome) {
+            weight.0.lanes_mut()[lane] = *gene;
+        }
+    }
+
+    /// Forgets what one car's network remembers.
+    pub(super) fn forget(&mut self, slot: usize, lane: usize) {
+        self.memory.visit(&mut |output| output.0[slot].lanes_mut()[lane] = 0.0);
+    }
+
+    /// All hidden outputs of one car's network, first layer then second.
+    #[cfg(test)]
+    pub(super) fn hidden(&mut self, slot: usize, lane: usize) -> Vec<f32> {
+        let mut hidden = Vec::new();
+        self.memory.visit(&mut |output| hidden.push(output.0[slot].lanes()[lane]));
+        hidden
+    }
+
+    /// One step of all networks.
+    #[inline(always)]
+    pub(super) fn step(&mut self) {
+        self.memory.step(&self.weights, &self.inputs, &mut self.outputs);
+    }
+}
+
+/// The hidden outputs of all cars' networks, whatever their sizes.
+trait Memory<V> {
+    /// One step of all networks.
+    fn step(&mut self, weights: &[Weight<V>], inputs: &[All<V>; INPUTS], outputs: &mut [All<V>]);
+
+    /// Shows every hidden output, first layer then second.
+    fn visit(&mut self, look: &mut dyn FnMut(&mut All<V>));
+}
+
+fn memory<V: Vector, R: Recurrence + 'static>(
+    topology: Topology,
+    activation: ActivationKind,
+) -> Box<dyn Memory<V>> {
+    with_sizes!(topology, |H, O| {
+        let (state, biases) = (State::<All<V>, H>::reset(), topology.biases);
+        Box::new(Sized::<V, R, H, O> { state, biases, activation, recurrence: PhantomData })
+    }, else unreachable!("the scenario's network is built in"))
+}
+
+/// The memory of networks whose hidden layers have `H` neurons and that have `O` outputs.
+struct Sized<V, R, const H: usize, const O: usize> {
+    state: State<All<V>, H>,
+    biases: bool,
+    activation: ActivationKind,
+    recurrence: PhantomData<R>,
+}
+
+impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Memory<V> for Sized<V, R, H, O> {
+    fn step(&mut self, weights: &[Weight<V>], inputs: &[All<V>; INPUTS], outputs: &mut [All<V>]) {
+        let network = Network::<R, Weight<V>, INPUTS, H, O>::new(weights, self.biases);
+        let network = network.expect("as many weights as the topology has");
+        let (state, activation) = (&mut self.state, self.activation);
+        V::apart(Step { network, state, activation, inputs, outputs });
+    }
+
+    fn visit(&mut self, look: &mut dyn FnMut(&mut All<V>)) {
+        let State { first, second } = &mut self.state;
+        first.iter_mut().chain(second).for_each(look);
+    }
+}
+
+/// One step, to be compiled for the vectors' instructions.
+struct Step<'a, V: Vector, R: Recurrence, const H: usize, const O: usize> {
+    network: Network<'a, R, Weight<V>, INPUTS, H, O>,
+    state: &'a mut State<All<V>, H>,
+    activation: ActivationKind,
+    inputs: &'a [All<V>; INPUTS],
+    outputs: &'a mut [All<V>],
+}
+
+impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Part<V> for Step<'_, V, R, H, O> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { network, state, activation, inputs, outputs } = self;
+        let answer = match V::NEURONS {
+            Neurons::Two => network.step_by::<2, _>(activation, state, inputs),
+            Neurons::Four => network.step_by::<4, _>(activation, state, inputs),
+        };
+        for (output, answer) in outputs.iter_mut().zip(answer) {
+            *output = answer;
+        }
+    }
+}

@@ -1,0 +1,314 @@
+//! Every car of a fleet against the same drive alone, as bits.
+
+use super::Fleet;
+use super::block::Block;
+use super::queue::Queue;
+use crate::episode::{Outcome, Trace};
+use crate::pairs::PairSampler;
+use crate::problem::{Problem, evaluation_drive};
+use crate::scenario::{
+    self, NetworkSpec, OnCollision, Pair, RandomiseSpec, ReachedBy, Scenario, StepLength,
+};
+use crate::seed::{Purpose, RunSeed};
+use crate::signals::StopFlag;
+use crate::vector::{Instructions, Kernel, Vector};
+use controller_core::activation::ActivationKind;
+use controller_core::network::RecurrenceKind;
+use controller_core::observation::{DistanceLaw, TypeCode};
+use proptest::prelude::*;
+use proptest::sample::select;
+use proptest::test_runner::{Config, TestCaseError, TestRunner};
+
+/// All that a scenario can ask of a drive.
+fn scenarios() -> impl Strategy<Value = Scenario> {
+    let places = (
+        select(vec!["open", "obstacles", "complex", "barn_000"]),
+        select(vec![OnCollision::Hold, OnCollision::Stop]),
+        select(vec![ReachedBy::Body, ReachedBy::ReferencePoint]),
+        select(vec![0.0_f32, 0.3]),
+        select(vec![0.0_f32, 0.5]),
+        select(vec![
+            RandomiseSpec::default(),
+            RandomiseSpec { wheelbase: 0.2, step: 0.1, steer_offset: 0.05 },
+        ]),
+        5..120_u32,
+    );
+    let networks = (
+        select(NetworkSpec::HIDDEN.to_vec()),
+        select(vec![RecurrenceKind::Feedforward, RecurrenceKind::SelfLoop, RecurrenceKind::Elman]),
+        any::<bool>(),
+        select(vec![ActivationKind::Rational, ActivationKind::Libm, ActivationKind::Micromath]),
+    );
+    let sensors = (
+        select(vec![10.0_f32, 2.5]),
+        select(vec![DistanceLaw::Linear, DistanceLaw::Saturating { half: 1.0 }]),
+        select(vec![
+            TypeCode::Any,
+            TypeCode::Nearest,
+            TypeCode::Share,
+            TypeCode::NearestWallAnyTarget,
+        ]),
+        select(vec![0.0_f32, 0.05]),
+        select(vec![0.0_f32, 0.1]),
+        any::<bool>(),
+    );
+    let vehicles = (
+        select(vec![
+            StepLength::Constant(0.1),
+            StepLength::Variable { lower: -0.02, upper: 0.15 },
+            StepLength::Variable { lower: 0.05, upper: 0.12 },
+        ]),
+        select(vec![1.5_f32, 0.5]),
+        select(vec![None, Some(3.0_f32)]),
+        select(vec![0_u8, 1, 3, 8]),
+    );
+    (places, networks, sensors, vehicles).prop_map(|(places, networks, sensors, vehicles)| {
+        let found = scenario::find(places.0).unwrap();
+        let mut scenario = scenario::load(&found, None, &[]).unwrap();
+        let Scenario { episode, network, sensors: beams, vehicle, .. } = &mut scenario;
+        (episode.on_collision, episode.reached_by) = (places.1, places.2);
+        (episode.start_offset, episode.start_turn) = (places.3, places.4);
+        (episode.randomise, episode.step_limit) = (places.5, places.6);
+        (network.hidden, network.recurrence) = (networks.0, networks.1);
+        (network.biases, network.activation) = (networks.2, networks.3);
+        beams.range = sensors.0;
+        (beams.encoding.distance, beams.encoding.types) = (sensors.1, sensors.2);
+        (beams.noise, beams.dropout) = (sensors.3, sensors.4);
+        if sensors.5 {
+            for (beam, side) in beams.beams.iter_mut().zip([-2.0, -1.0, 0.0, 1.0, 2.0]) {
+                (beam.x, beam.y) = (0.03, 0.02 * side);
+            }
+        }
+        (vehicle.step, vehicle.steer_limit) = (vehicles.0, vehicles.1);
+        (vehicle.servo_rate, vehicle.delay_periods) = (vehicles.2, vehicles.3);
+        scenario
+    })
+}
+
+/// Genomes between meek and wild, so that some neurons saturate, and one that is not sound.
+fn genomes(problem: &Problem, individuals: usize, seed: u64) -> Vec<f32> {
+    let length = problem.topology().weights();
+    let mut random = RunSeed(seed).stream(Purpose::InitialPopulation, 0, 0);
+    let mut genomes = Vec::new();
+    for individual in 0..individuals {
+        let bound = [0.3, 1.0, 3.0, 30.0][individual % 4];
+        genomes.extend((0..length).map(|_| random.within(-bound, bound)));
+    }
+    if individuals > 6 {
+        genomes[6 * length..7 * length].fill(f32::MAX);
+    }
+    genomes
+}
+
+fn pairs(problem: &Problem, count: u32, seed: u64) -> Vec<Pair> {
+    let sampler = PairSampler::new(&problem.world, &problem.scenario);
+    sampler.unseen(RunSeed(seed), count).unwrap()
+}
+
+/// Each drive alone.
+fn alone(problem: &Problem, genomes: &[f32], pairs: &[Pair], seed: u64) -> Vec<Outcome> {
+    let mut outcomes = Vec::new();
+    for genome in genomes.chunks(problem.topology().weights()) {
+        let mut brain = problem.brain(genome).unwrap();
+        let random = |pair| evaluation_drive(RunSeed(seed), pair);
+        outcomes.extend(problem.drive_all(brain.as_mut(), pairs, random));
+    }
+    outcomes
+}
+
+fn bits(outcome: &Outcome) -> (bool, u32, u32, u32, u32) {
+    let Outcome { reached, collisions, steps, path_length, distance_to_target } = outcome;
+    (*reached, *collisions, *steps, path_length.to_bits(), distance_to_target.to_bits())
+}
+
+/// Drives a fleet at every width, and each drive alone. Returns the steps of one of them.
+fn compare(
+    scenario: Scenario,
+    individuals: usize,
+    count: u32,
+    seed: u64,
+) -> Result<u64, TestCaseError> {
+    let problem = Problem::new(scenario).unwrap();
+    let pairs = pairs(&problem, count, seed);
+    let genomes = genomes(&problem, individuals, seed);
+    let expected = alone(&problem, &genomes, &pairs, seed);
+    let steps = expected.iter().map(|outcome| u64::from(outcome.steps)).sum();
+    let random = |pair| evaluation_drive(RunSeed(seed), pair);
+    let fleet = Fleet {
+        problem: &problem,
+        genomes: &genomes,
+        pairs: &pairs,
+        random: &random,
+        again: false,
+    };
+    for instructions in Instructions::available() {
+        let drives = fleet.drive(instructions, &StopFlag::default()).unwrap();
+        prop_assert_eq!(drives.tally.steps, steps);
+        for (index, (found, expected)) in drives.outcomes.iter().zip(&expected).enumerate() {
+            let (individual, pair) = (index / pairs.len(), index % pairs.len());
+            prop_assert_eq!(
+                bits(found),
+                bits(expected),
+                "{}, individual {}, pair {}: {:?}, alone {:?}",
+                instructions,
+                individual,
+                pair,
+                found,
+                expected
+            );
+        }
+    }
+    Ok(steps)
+}
+
+fn drives_enough(cases: u32, individuals: usize, pairs: u32, enough: u64) {
+    let mut runner = TestRunner::new(Config {
+        cases,
+        source_file: Some(file!()),
+        max_shrink_iters: 60,
+        ..Config::default()
+    });
+    let steps = std::cell::Cell::new(0);
+    let fleets = (scenarios(), 1..=individuals, 1..=pairs, any::<u64>());
+    let result = runner.run(&fleets, |(scenario, individuals, pairs, seed)| {
+        steps.set(steps.get() + compare(scenario, individuals, pairs, seed)?);
+        Ok(())
+    });
+    if let Err(error) = result {
+        panic!("{error}");
+    }
+    assert!(steps.get() >= enough, "{} steps are too few to tell", steps.get());
+}
+
+#[test]
+fn every_drive_of_a_fleet_ends_as_it_does_alone() {
+    drives_enough(48, 40, 13, 100_000);
+}
+
+/// Minutes in a build without optimisation.
+#[test]
+#[ignore = "ten million steps, a minute or two; cargo xtask test runs it"]
+fn ten_million_steps_of_a_fleet_are_those_of_drives_alone() {
+    drives_enough(1200, 70, 21, 10_000_000);
+}
+
+/// Steps a block by hand and looks at every car before each step.
+struct Watch<'a> {
+    fleet: &'a Fleet<'a>,
+    queue: &'a Queue<'a>,
+    traces: &'a [Trace],
+}
+
+impl Kernel for Watch<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> usize {
+        let mut block = Block::<V>::new(self.fleet, self.queue);
+        let mut seen = 0;
+        while block.fill() {
+            for (index, step, pose, hidden) in block.look() {
+                let trace = &self.traces[index].steps;
+                let expected = &trace[step].pose;
+                let bits = |pose: &controller_core::motion::Pose<f32>| {
+                    [pose.x, pose.y, pose.heading, pose.cos, pose.sin].map(f32::to_bits)
+                };
+                assert_eq!(bits(&pose), bits(expected), "drive {index}, step {step}");
+                let before = step.checked_sub(1).map(|before| &trace[before].hidden);
+                let none = vec![0.0; hidden.len()];
+                let expected = before.unwrap_or(&none).iter().map(|output| output.to_bits());
+                let found = hidden.iter().map(|output| output.to_bits());
+                assert!(found.eq(expected), "drive {index}, step {step}: hidden outputs");
+                seen += 1;
+            }
+            block.step();
+        }
+        seen
+    }
+}
+
+#[test]
+fn every_pose_and_every_hidden_output_is_that_of_the_drive_alone() {
+    let mut scenario = scenario::load(&scenario::find("complex").unwrap(), None, &[]).unwrap();
+    scenario.network.recurrence = RecurrenceKind::Elman;
+    scenario.sensors.noise = 0.02;
+    scenario.vehicle.delay_periods = 2;
+    scenario.vehicle.servo_rate = Some(5.0);
+    scenario.episode.step_limit = 80;
+    let problem = Problem::new(scenario).unwrap();
+    let pairs = pairs(&problem, 7, 3);
+    let genomes = genomes(&problem, 23, 3);
+    let random = |pair| evaluation_drive(RunSeed(3), pair);
+    let mut traces = Vec::new();
+    for (individual, genome) in genomes.chunks(problem.topology().weights()).enumerate() {
+        let mut brain = problem.brain(genome).unwrap();
+        for (index, pair) in (0..).zip(&pairs) {
+            let (_, trace) = problem.drive_traced(brain.as_mut(), pair, random(index));
+            assert_eq!(traces.len(), individual * pairs.len() + index as usize);
+            traces.push(trace);
+        }
+    }
+    let steps: usize = traces.iter().map(|trace| trace.steps.len()).sum();
+    let fleet = Fleet {
+        problem: &problem,
+        genomes: &genomes,
+        pairs: &pairs,
+        random: &random,
+        again: false,
+    };
+    for set in Instructions::available() {
+        let stop = StopFlag::default();
+        let queue = Queue::new(23, pairs.len(), 1, set, &stop);
+        let seen = set.run(Watch { fleet: &fleet, queue: &queue, traces: &traces });
+        assert_eq!(seen, steps, "{set}");
+    }
+}
+
+#[test]
+fn the_outcomes_are_the_same_on_any_number_of_threads() {
+    let scenario = scenario::load(&scenario::find("obstacles").unwrap(), None, &[]).unwrap();
+    let problem = Problem::new(scenario).unwrap();
+    let pairs = pairs(&problem, 6, 8);
+    let genomes = genomes(&problem, 50, 8);
+    let random = |pair| evaluation_drive(RunSeed(8), pair);
+    let fleet = Fleet {
+        problem: &problem,
+        genomes: &genomes,
+        pairs: &pairs,
+        random: &random,
+        again: false,
+    };
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| fleet.drive(Instructions::of_this_cpu(), &StopFlag::default())).unwrap()
+    };
+    let one = on(1);
+    assert_eq!(one.outcomes.len(), 300);
+    assert_eq!([on(2), on(5)], [one.clone(), one]);
+}
+
+#[test]
+fn a_fleet_that_drives_again_makes_every_step_and_keeps_its_first_outcomes() {
+    let mut scenario = scenario::load(&scenario::find("complex").unwrap(), None, &[]).unwrap();
+    scenario.episode.on_collision = OnCollision::Stop;
+    scenario.episode.step_limit = 150;
+    let problem = Problem::new(scenario).unwrap();
+    let pairs = pairs(&problem, 5, 4);
+    let genomes = genomes(&problem, 20, 4);
+    let random = |pair| evaluation_drive(RunSeed(4), pair);
+    let mut fleet = Fleet {
+        problem: &problem,
+        genomes: &genomes,
+        pairs: &pairs,
+        random: &random,
+        again: false,
+    };
+    let once = fleet.drive(Instructions::of_this_cpu(), &StopFlag::default()).unwrap();
+    fleet.again = true;
+    let again = fleet.drive(Instructions::of_this_cpu(), &StopFlag::default()).unwrap();
+    assert_eq!(again.outcomes, once.outcomes);
+    assert_eq!(again.tally.steps, 20 * 5 * 150);
+    assert!(again.tally.stopped > once.tally.stopped && once.tally.stopped > 20);
+    let crashes = once.outcomes.iter().filter(|outcome| outcome.collisions > 0).count();
+    assert_eq!(once.tally.stopped, crashes as u64);
+}
