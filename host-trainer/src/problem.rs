@@ -6,7 +6,7 @@ use crate::episode::{self, Outcome, Trace};
 use crate::failure::Failure;
 use crate::scenario::{Pair, Scenario, StepLength, words_of};
 use crate::seed::{Purpose, RunSeed, Stream};
-use crate::world::World;
+use crate::world::{Fan, Lookout, World};
 use controller_core::activation::ActivationKind;
 use controller_core::blob::Header;
 use controller_core::controller::Scaling;
@@ -23,6 +23,7 @@ pub struct Problem {
     /// Its obstacles.
     pub world: World,
     model: CarModel,
+    lookout: Lookout,
     scaling: Scaling,
     topology: Topology,
     activation: ActivationKind,
@@ -36,9 +37,12 @@ impl Problem {
     /// A map that cannot be read.
     pub fn new(scenario: Scenario) -> Result<Self, Failure> {
         let world = World::new(&scenario)?;
+        let model = CarModel::new(&scenario);
+        let fan = Fan::new(&scenario.sensors.beams, scenario.sensors.range);
         Ok(Self {
+            lookout: world.lookout(fan, *model.body()),
             world,
-            model: CarModel::new(&scenario),
+            model,
             scaling: scaling_of(&scenario),
             topology: topology_of(&scenario),
             activation: scenario.network.activation,
@@ -59,6 +63,11 @@ impl Problem {
     /// Everything about the car that does not change during a drive.
     pub(crate) fn model(&self) -> &CarModel {
         &self.model
+    }
+
+    /// The world as this car sees and touches it.
+    pub(crate) fn lookout(&self) -> &Lookout {
+        &self.lookout
     }
 
     /// The network's tanh.

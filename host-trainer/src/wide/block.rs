@@ -132,8 +132,9 @@ impl<'a, V: Vector> Block<'a, V> {
     pub(super) fn step(&mut self) {
         let problem = self.fleet.problem;
         let (model, world, scaling) = (problem.model(), &problem.world, problem.scaling());
+        let lookout = problem.lookout();
         for (slot, cars) in self.cars.iter_mut().enumerate() {
-            let sight = cars.sense(model, world);
+            let sight = cars.sense(model, lookout);
             let inputs = scaling.encoding.inputs(&sight, scaling.range);
             for (all, input) in self.networks.inputs.iter_mut().zip(inputs) {
                 all.0[slot] = input;
@@ -151,7 +152,7 @@ impl<'a, V: Vector> Block<'a, V> {
             };
             let cars = &mut self.cars[slot];
             self.tally.steps += u64::from(cars.live.count_ones());
-            let ends = cars.act(command, model, world);
+            let ends = cars.act(command, model, world, lookout);
             let mut ended = ends.reached;
             if model.stops_on_collision() {
                 ended |= ends.collided;

@@ -4,9 +4,9 @@ use crate::car::{CarModel, Exemplar};
 use crate::episode::Outcome;
 use crate::seed::Stream;
 use crate::vector::Vector;
-use crate::world::{World, distance};
+use crate::world::{Lookout, World, distance};
 use controller_core::actuator::turned;
-use controller_core::geometry::{Disc, Ray};
+use controller_core::geometry::Disc;
 use controller_core::motion::Pose;
 use controller_core::observation::{BEAMS, Echo, Sight};
 
@@ -119,16 +119,13 @@ impl<V: Vector> Cars<V> {
 
     /// What the beams report.
     #[inline(always)]
-    pub(super) fn sense(&mut self, model: &CarModel, world: &World) -> Sight<V> {
+    pub(super) fn sense(&mut self, model: &CarModel, lookout: &Lookout) -> Sight<V> {
         let rays = model.rays(&self.pose);
         let mut walls = [V::from(f32::INFINITY); BEAMS];
         for lane in lanes(self.live) {
-            for (wall, ray) in walls.iter_mut().zip(&rays) {
-                let ray = Ray {
-                    origin: (ray.origin.0.lanes()[lane], ray.origin.1.lanes()[lane]),
-                    direction: (ray.direction.0.lanes()[lane], ray.direction.1.lanes()[lane]),
-                };
-                wall.lanes_mut()[lane] = world.distance(&ray, model.range());
+            let distances = lookout.fan::<V::Eight>(&pose_of(&self.pose, lane));
+            for (wall, distance) in walls.iter_mut().zip(distances) {
+                wall.lanes_mut()[lane] = distance;
             }
         }
         let (zero, one) = (V::from(0.0), V::from(1.0));
@@ -181,6 +178,7 @@ impl<V: Vector> Cars<V> {
         (mut angle, mut length): (V, V),
         model: &CarModel,
         world: &World,
+        lookout: &Lookout,
     ) -> Ends {
         if let Some(waiting) = self.waiting.get_mut(self.due) {
             let [due_angle, due_length] = *waiting;
@@ -203,7 +201,7 @@ impl<V: Vector> Cars<V> {
                 let (x, y) = (self.pose.x.lanes()[lane], self.pose.y.lanes()[lane]);
                 was_blocked >> lane & 1 == 1 && world.separates([x, y], [pose.x, pose.y])
             };
-            if world.touches(model.body(), &pose) || jumps() {
+            if lookout.touches(&pose) || jumps() {
                 blocked.lanes_mut()[lane] = 1.0;
             }
         }

@@ -8,7 +8,6 @@
 
 mod beams;
 mod cell;
-mod eight;
 mod fan;
 mod grid;
 mod hidden;
@@ -17,6 +16,7 @@ mod rounding;
 mod view;
 
 use super::obstacles::Obstacles;
+use crate::vector::Eight;
 use beams::Beams;
 use cell::{Cell, Choice, Table, table_of_all};
 use controller_core::geometry::{Body, Ray};
@@ -26,7 +26,6 @@ use grid::Grid;
 use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-pub use eight::Eight;
 pub use fan::Fan;
 
 /// Side of a cell, metres.

@@ -3,7 +3,7 @@
 //! Inlined into its callers, whose vector instructions it uses; for the same reason nothing here
 //! hands a vector to a closure.
 
-use super::eight::Eight;
+use crate::vector::Eight;
 use controller_core::geometry::{Disc, Ray, Segment};
 use controller_core::observation::BEAMS;
 

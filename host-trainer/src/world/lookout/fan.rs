@@ -1,7 +1,7 @@
 //! The car's beams, ready to be turned by its heading.
 
 use super::beams::WIDTH;
-use super::eight::Eight;
+use crate::vector::Eight;
 use controller_core::geometry::Ray;
 use controller_core::lane::Lanes;
 use controller_core::motion::Pose;
