@@ -185,11 +185,10 @@ fn every_drive_of_a_fleet_ends_as_it_does_alone() {
     drives_enough(48, 40, 13, 100_000);
 }
 
-/// Minutes in a build without optimisation.
 #[test]
 #[ignore = "ten million steps, a minute or two; cargo xtask test runs it"]
 fn ten_million_steps_of_a_fleet_are_those_of_drives_alone() {
-    drives_enough(1200, 70, 21, 10_000_000);
+    drives_enough(700, 70, 21, 10_000_000);
 }
 
 /// Steps a block by hand and looks at every car before each step.
