@@ -107,7 +107,8 @@ fn every_task_that_a_page_names_exists() {
     let tasks = pages::read("xtask/src/main.rs");
     for page in pages::all() {
         for call in pages::read(&page).split("cargo xtask ").skip(1) {
-            let name: String = call.chars().take_while(char::is_ascii_alphanumeric).collect();
+            let of_a_name = |c: &char| c.is_ascii_alphanumeric() || *c == '-';
+            let name: String = call.chars().take_while(of_a_name).collect();
             let exists = name.is_empty() || tasks.contains(&format!("name: \"{name}\""));
             assert!(exists, "{page}: there is no `cargo xtask {name}`");
         }
