@@ -33,7 +33,7 @@ const STEP: usize = recording::step_words(12, 1);
 
 fn main() -> ExitCode {
     let tests: &[Test] = &[
-        ("every_board_replays_every_recorded_drive_bit_for_bit", replays),
+        ("every_board_replays_the_recorded_drives_it_has_room_for_bit_for_bit", replays),
         (
             "a_bit_changed_in_an_expected_value_is_reported_with_step_neuron_and_both_values",
             changed_value,

@@ -26,7 +26,12 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     for board in boards::ALL {
         let elf = firmware::build(board, options)?;
         let log = qemu::log(board, &elf, &[])?;
-        rows.push(row(board.name, &elf, used(&log))?);
+        let used = used(&log);
+        // Only Cortex-M boards paint their stack; one that no longer says so is not passed over.
+        if used.is_none() && board.triple.starts_with("thumb") {
+            return Err(Failure::failed(format!("{}: its log has no \"{USED}…\"", board.name)));
+        }
+        rows.push(row(board.name, &elf, used)?);
     }
     for real in boards::REAL {
         let elf = firmware::build_program(&real.program, options)?;
