@@ -67,9 +67,14 @@ impl RunFolder {
             }
             Err(cause) => return Err(Failure::io("create the folder", path, &cause)),
         }
-        // A folder of someone else's is refused before a lock file is put into it.
-        if !path.join(Self::LOCK).exists() {
-            refuse_used(path)?;
+        // A folder of someone else's is refused before a lock file is put into it. What is there may also be
+        // the beginning of a run, made between two looks: then its lock decides.
+        let has_lock = || path.join(Self::LOCK).exists();
+        if !has_lock()
+            && let Err(used) = refuse_used(path)
+            && !has_lock()
+        {
+            return Err(used);
         }
         let folder = Self::lock(path)?;
         // Another process may have had a whole run here since the first look.

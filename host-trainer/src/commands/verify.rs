@@ -1,14 +1,13 @@
 //! `evosteer verify`: does the chip compute the same bits?
 
+mod register;
 mod report;
 
 use std::path::{Path, PathBuf};
 
-use controller_core::lane::Lanes;
 use equivalence_tests::checkout::{Checkout, Trouble};
 use equivalence_tests::compare::{Drive, Tally};
 use equivalence_tests::files::Case;
-use equivalence_tests::side_by_side;
 use equivalence_tests::weight_sets::{self, WeightSet};
 
 use super::advice::counted;
@@ -16,22 +15,21 @@ use super::number::whole;
 use crate::blob_file::BlobFile;
 use crate::failure::{Failure, FailureKind};
 use crate::output::Output;
+use crate::vector::Instructions;
 use report::{Machine, Report};
-
-/// Lanes of the host's wide drives.
-const LANES: usize = 16;
 
 /// Courses on which each of the user's champions drives.
 const COURSES: u32 = 16;
 
-/// Steps that a board drives in one go: it leaves 24 MB of results, gone when they are compared.
+/// Steps that a board drives in one go, or one drive if that is longer: they leave 24 MB of results, gone when
+/// they are compared.
 const STEPS_PER_RUN: u64 = 200_000;
 
 /// Compares every bit that host and emulated boards compute in the same drives
 ///
 /// Generated weight sets of every recurrence and every tanh drive closed loops, faults of the
-/// sensors included, on this machine, sixteen at a time in lanes, and on every emulated board;
-/// champions that are named drive besides. Commands, outputs, all hidden values and poses are
+/// sensors included, on this machine, also side by side in each kind of vector that its CPU has,
+/// and on every emulated board; champions that are named drive besides. Commands, outputs, all hidden values and poses are
 /// compared as bits. Needs a checkout of the sources and QEMU.
 #[derive(Clone, Debug, clap::Args)]
 pub struct VerifyArgs {
@@ -75,9 +73,15 @@ pub fn run(args: &VerifyArgs, output: &mut Output) -> Result<(), Failure> {
     let boards = chosen(&args.boards, &checkout.boards().map_err(|trouble| failure(&trouble))?)?;
 
     let mut report = Report::new(weight_sets, args.steps, &drives);
-    output.status(format_args!("host: {}, each alone and {LANES} side by side", report.task()));
-    let lanes = side_by_side::compare::<Lanes<LANES>>(&drives);
-    report.host.push(Machine::new(format!("host, {LANES} lanes"), lanes));
+    output.status(format_args!("host: {}, each alone and side by side", report.task()));
+    for instructions in Instructions::available() {
+        let tally = register::compare(instructions, &drives);
+        let name = match instructions.width() {
+            1 => format!("host, {instructions}"),
+            lanes => format!("host, {instructions}, {lanes} lanes"),
+        };
+        report.host.push(Machine::new(name, tally));
+    }
     for board in boards {
         output.status(format_args!("{board}: building its program"));
         let program = checkout.build(&board, None).map_err(|trouble| failure(&trouble))?;
@@ -135,7 +139,8 @@ fn chosen(named: &[String], there: &[String]) -> Result<Vec<String>, Failure> {
             there.join(", ")
         )));
     }
-    Ok(if named.is_empty() { there.to_vec() } else { named.to_vec() })
+    let chosen = |name: &&String| named.is_empty() || named.contains(name);
+    Ok(there.iter().filter(chosen).cloned().collect())
 }
 
 /// Has a board drive everything, in runs of limited size.

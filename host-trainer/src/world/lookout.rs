@@ -4,7 +4,8 @@
 //! the beams can meet and those that the body can touch are found once: those out of range,
 //! outside of the fan, or hidden behind others are left out. The rest is tested with the same
 //! arithmetic as ever, so distances and contacts are those of a test of all obstacles, to the
-//! last bit.
+//! last bit. One thing is left to rounding: a wall that lies along a beam's line, to the last digit of
+//! both, behind the car or out of range; a test of all obstacles may compute it as met.
 
 mod beams;
 mod cell;

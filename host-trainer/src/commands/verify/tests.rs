@@ -66,6 +66,7 @@ fn a_board_that_there_is_not_is_refused_with_those_that_there_are() {
     assert_eq!(said.to_string(), "--board: found `c`, expected one of: a, b");
     assert_eq!(chosen(&[], &there).unwrap(), there);
     assert_eq!(chosen(&["b".to_owned()], &there).unwrap(), ["b"]);
+    assert_eq!(chosen(&["b".to_owned(), "a".to_owned(), "b".to_owned()], &there).unwrap(), there);
 }
 
 #[test]
