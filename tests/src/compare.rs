@@ -5,7 +5,7 @@ use std::fmt;
 use crate::closed_loop::{Bits, Value};
 use crate::files::{Case, FileError, ResultsReader, Source};
 use crate::on_host;
-use crate::weight_sets::WeightSet;
+use crate::weight_sets::{self, WeightSet};
 
 /// Where two machines first disagree.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -86,6 +86,12 @@ pub struct Drive {
     pub weights: WeightSet,
     /// Where and how far.
     pub case: Case,
+}
+
+/// Every generated weight set on a course of its own, each for so many steps.
+pub fn generated_drives(steps: u32) -> Vec<Drive> {
+    let sets = weight_sets::generated().into_iter().zip(0..);
+    sets.map(|(weights, seed)| Drive { weights, case: Case { seed, steps } }).collect()
 }
 
 /// Reads a machine's results of these drives and compares each with what the host computes now.

@@ -12,12 +12,6 @@ use equivalence_tests::side_by_side;
 use equivalence_tests::weight_sets::{self, WeightSet};
 use firmware_example::proof::Board;
 
-/// Every generated set on a course of its own.
-fn drives(steps: u32) -> Vec<Drive> {
-    let sets = weight_sets::generated().into_iter().zip(0..);
-    sets.map(|(weights, seed)| Drive { weights, case: Case { seed, steps } }).collect()
-}
-
 fn cases(drives: &[Drive]) -> Vec<u8> {
     let mut writer = CasesWriter::new(Stream(Vec::new()), drives.len() as u32).expect("memory");
     for Drive { weights, case } in drives {
@@ -42,7 +36,7 @@ fn compared(drives: &[Drive], results: &[u8]) -> Tally {
 
 #[test]
 fn the_boards_program_computes_on_this_host_what_the_reference_computes() {
-    let drives = drives(300);
+    let drives = compare::generated_drives(300);
     for results in [results::<Board>(&drives), results::<Host>(&drives)] {
         let tally = compared(&drives, &results);
         assert_eq!((tally.steps, tally.differing_bits, tally.first), (144 * 300, 0, None));
@@ -51,7 +45,7 @@ fn the_boards_program_computes_on_this_host_what_the_reference_computes() {
 
 #[test]
 fn every_lane_of_a_wide_drive_is_the_same_drive_alone() {
-    let drives = drives(300);
+    let drives = compare::generated_drives(300);
     let tally = side_by_side::compare::<Lanes<16>>(&drives);
     assert_eq!((tally.steps, tally.differing_bits, tally.first), (144 * 300, 0, None));
     // Lanes that are left over repeat a drive and are not counted.
@@ -61,7 +55,7 @@ fn every_lane_of_a_wide_drive_is_the_same_drive_alone() {
 
 #[test]
 fn one_flipped_bit_in_the_weights_of_one_drive_is_found_with_its_place() {
-    let expected = drives(40);
+    let expected = compare::generated_drives(40);
     let mut driven = expected.clone();
     let weight = driven[20].weights.blob().weights()[0];
     driven[20].weights =
@@ -83,7 +77,7 @@ fn one_flipped_bit_in_the_weights_of_one_drive_is_found_with_its_place() {
 
 #[test]
 fn results_of_other_weights_are_refused() {
-    let drives = drives(2);
+    let drives = compare::generated_drives(2);
     let mut others = drives.clone();
     others.swap(3, 4);
     let refused = compare::with_host(&others, Stream(&results::<Host>(&drives)[..]));

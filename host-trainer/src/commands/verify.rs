@@ -6,9 +6,9 @@ mod report;
 use std::path::{Path, PathBuf};
 
 use equivalence_tests::checkout::{Checkout, Trouble};
-use equivalence_tests::compare::{Drive, Tally};
+use equivalence_tests::compare::{self, Drive, Tally};
 use equivalence_tests::files::Case;
-use equivalence_tests::weight_sets::{self, WeightSet};
+use equivalence_tests::weight_sets::WeightSet;
 
 use super::advice::counted;
 use super::number::whole;
@@ -98,11 +98,8 @@ pub fn run(args: &VerifyArgs, output: &mut Output) -> Result<(), Failure> {
 
 /// What all machines drive, and with how many weight sets.
 fn drives(args: &VerifyArgs) -> Result<(Vec<Drive>, usize), Failure> {
-    let mut drives = Vec::new();
     let steps = args.steps;
-    for (weights, seed) in weight_sets::generated().into_iter().zip(0..) {
-        drives.push(Drive { weights, case: Case { seed, steps } });
-    }
+    let mut drives = compare::generated_drives(steps);
     let sets = drives.len() + args.champions.len();
     for champion in &args.champions {
         let file = BlobFile::read(champion)?;

@@ -13,7 +13,7 @@ use equivalence_tests::compare::{self, Drive, Tally};
 use equivalence_tests::files::{Case, ResultsReader, Stream};
 use equivalence_tests::harness::Trouble;
 use equivalence_tests::on_host;
-use equivalence_tests::weight_sets::{self, PER_KIND, WeightSet};
+use equivalence_tests::weight_sets::{PER_KIND, WeightSet};
 
 use crate::{BOARD, boards};
 
@@ -25,12 +25,6 @@ const HUNDRED_THOUSAND: u32 = 700;
 
 /// Drives of one run: a run of the long proof leaves 30 MB of results, and they are gone after it.
 const PER_RUN: usize = 36;
-
-/// Every generated set on a course of its own.
-fn drives(steps: u32) -> Vec<Drive> {
-    let sets = weight_sets::generated().into_iter().zip(0..);
-    sets.map(|(weights, seed)| Drive { weights, case: Case { seed, steps } }).collect()
-}
 
 /// Two boards at a time, the slow ones first.
 pub(crate) fn million() -> Result<(), Trouble> {
@@ -53,7 +47,8 @@ pub(crate) fn million() -> Result<(), Trouble> {
             threads.spawn(|| {
                 while let Some((board, program, steps)) = pop(&jobs) {
                     let started = Instant::now();
-                    let tally = prove(&checkout, &board, &program, &drives(steps));
+                    let tally =
+                        prove(&checkout, &board, &program, &compare::generated_drives(steps));
                     let seconds = started.elapsed().as_secs_f64();
                     tallies.lock().expect("no panic").push((board, steps, tally, seconds));
                 }
@@ -75,7 +70,7 @@ pub(crate) fn million() -> Result<(), Trouble> {
 
 /// The reference is what the build of this test computes; the builds a user has are not this one.
 pub(crate) fn builds_of_the_host() -> Result<(), Trouble> {
-    let drives = drives(HUNDRED_THOUSAND);
+    let drives = compare::generated_drives(HUNDRED_THOUSAND);
     let builds: [(&str, &[&str]); 2] = [
         ("not optimised", &["--config", "profile.dev.opt-level=0"]),
         ("optimised", &["--release"]),
@@ -116,7 +111,8 @@ pub(crate) fn one_ulp() -> Result<(), Trouble> {
     let program = checkout.build(BOARD, None)?;
     // The first set of each recurrence: rational tanh, with biases, small weights.
     for number in [0, 3 * PER_KIND, 6 * PER_KIND] {
-        let Drive { weights: unchanged, case } = drives(MILLION).swap_remove(number as usize);
+        let Drive { weights: unchanged, case } =
+            compare::generated_drives(MILLION).swap_remove(number as usize);
         let weights = unchanged.blob().weights().to_vec();
         let mut drives = Vec::new();
         for (index, weight) in weights.iter().enumerate() {
@@ -168,7 +164,7 @@ fn first_difference(one: &WeightSet, other: &WeightSet, case: Case) -> Option<u3
 
 pub(crate) fn spoilt_sums() -> Result<(), Trouble> {
     let checkout = Checkout::compiled_in();
-    let drives = drives(10);
+    let drives = compare::generated_drives(10);
     for way in ["reordered-sum", "fused-sum"] {
         let program = checkout.build(BOARD, Some(way))?;
         let tally = prove(&checkout, BOARD, &program, &drives)?;
@@ -188,7 +184,7 @@ pub(crate) fn damaged_cases() -> Result<(), Trouble> {
     let checkout = Checkout::compiled_in();
     let program = checkout.build(BOARD, None)?;
     let folder = Folder::new()?;
-    checkout.drive(BOARD, &program, &folder.0, &drives(1)[..2])?;
+    checkout.drive(BOARD, &program, &folder.0, &compare::generated_drives(1)[..2])?;
     let io = |error: std::io::Error| Trouble::Failed(error.to_string());
     let cases = std::fs::read(folder.0.join("cases")).map_err(io)?;
     let mut flipped = cases.clone();

@@ -125,17 +125,13 @@ impl<V: Vector> Lane for Register<V> {
 
 #[cfg(test)]
 mod tests {
-    use equivalence_tests::files::Case;
-    use equivalence_tests::weight_sets;
+    use equivalence_tests::compare;
 
     use super::*;
 
     #[test]
     fn every_lane_of_every_vector_of_this_cpu_is_the_same_drive_alone() {
-        let sets = weight_sets::generated().into_iter().zip(0..);
-        let drives: Vec<Drive> = sets
-            .map(|(weights, seed)| Drive { weights, case: Case { seed, steps: 300 } })
-            .collect();
+        let drives = compare::generated_drives(300);
         for instructions in Instructions::available() {
             let Tally { steps, differing_bits, first } = compare(instructions, &drives);
             assert_eq!((steps, differing_bits, first), (144 * 300, 0, None), "{instructions}");
