@@ -4,7 +4,7 @@ mod model;
 
 use crate::scenario::{Scenario, StepLength, VehicleSpec};
 use crate::seed::Stream;
-use crate::world::{World, distance};
+use crate::world::{Lookout, World, distance};
 use controller_core::actuator::Actuator;
 use controller_core::control_loop::{Actuate, Sense};
 use controller_core::controller::{Command, Scaling};
@@ -44,6 +44,7 @@ pub fn scaling_of(scenario: &Scenario) -> Scaling {
 #[derive(Debug)]
 pub struct SimulatedCar<'a> {
     world: &'a World,
+    lookout: &'a Lookout,
     model: &'a CarModel,
     target: Disc<f32>,
     pose: Pose<f32>,
@@ -68,6 +69,7 @@ impl<'a> SimulatedCar<'a> {
     /// A car at its start. `random` decides noise, dropped beams and the randomised vehicle.
     pub fn new(
         world: &'a World,
+        lookout: &'a Lookout,
         model: &'a CarModel,
         start: Pose<f32>,
         goal: [f32; 2],
@@ -76,6 +78,7 @@ impl<'a> SimulatedCar<'a> {
         let exemplar = model.exemplar(&mut random);
         Self {
             world,
+            lookout,
             model,
             target: Disc { centre: (goal[0], goal[1]), radius: world.target_radius },
             pose: start,
@@ -104,9 +107,11 @@ impl<'a> SimulatedCar<'a> {
 
     /// What the beams see from here, without noise.
     pub fn echoes(&self) -> [Echo; BEAMS] {
-        self.model.rays(&self.pose).map(|ray| {
-            let wall = self.world.distance(&ray, self.model.range());
-            let target = ray.to_disc(&self.target);
+        let fan = self.model.fan();
+        let rays = fan.rays(&self.pose);
+        let [walls] = self.lookout.distances::<f32, 1, BEAMS>(fan, &[self.pose], &[rays], &[1]);
+        std::array::from_fn(|beam| {
+            let (wall, target) = (walls[beam], rays[beam].to_disc(&self.target));
             let hit = self.model.hit(wall, target);
             if hit.target {
                 Echo::Target(target)
@@ -138,7 +143,7 @@ impl Actuate for SimulatedCar<'_> {
         let moved = self.pose.driven(steer, step, self.exemplar.wheelbase);
         // A blocked car turns on the spot, and its body may come to lie across a wall; from
         // there, a step could end on the far side of it.
-        self.collided = self.world.touches(self.model.body(), &moved)
+        self.collided = self.lookout.touches(&[moved], &[1]) != [0]
             || (self.collided && self.world.separates([x, y], [moved.x, moved.y]));
         if self.collided {
             self.collisions += 1;

@@ -4,7 +4,7 @@ use crate::brain::Brain;
 use crate::car::{CarModel, SimulatedCar};
 use crate::scenario::{EpisodeSpec, OnCollision, Pair};
 use crate::seed::Stream;
-use crate::world::World;
+use crate::world::{Lookout, World};
 use controller_core::control_loop::tick;
 use controller_core::controller::Command;
 use controller_core::motion::Pose;
@@ -73,18 +73,20 @@ pub struct End {
 /// `random` belongs to this drive alone: it decides offsets, noise and the randomised vehicle.
 pub fn drive(
     world: &World,
+    lookout: &Lookout,
     model: &CarModel,
     spec: &EpisodeSpec,
     pair: &Pair,
     brain: &mut dyn Brain,
     random: Stream,
 ) -> Outcome {
-    run(world, model, spec, pair, brain, random, |_, _, _, _| ())
+    run(world, lookout, model, spec, pair, brain, random, |_, _, _, _| ())
 }
 
 /// The same drive, remembered step by step.
 pub fn drive_traced(
     world: &World,
+    lookout: &Lookout,
     model: &CarModel,
     spec: &EpisodeSpec,
     pair: &Pair,
@@ -93,22 +95,24 @@ pub fn drive_traced(
 ) -> (Outcome, Trace) {
     let mut steps = Vec::new();
     let mut end = None;
-    let outcome = run(world, model, spec, pair, brain, random, |pose, car, command, brain| {
-        steps.push(Step {
-            pose,
-            echoes: car.reported,
-            command,
-            done: car.done,
-            hidden: brain.hidden(),
-            collided: car.collided,
+    let outcome =
+        run(world, lookout, model, spec, pair, brain, random, |pose, car, command, brain| {
+            steps.push(Step {
+                pose,
+                echoes: car.reported,
+                command,
+                done: car.done,
+                hidden: brain.hidden(),
+                collided: car.collided,
+            });
+            end = Some(End { pose: *car.pose(), echoes: car.echoes() });
         });
-        end = Some(End { pose: *car.pose(), echoes: car.echoes() });
-    });
     (outcome, Trace { steps, end })
 }
 
 fn run(
     world: &World,
+    lookout: &Lookout,
     model: &CarModel,
     spec: &EpisodeSpec,
     pair: &Pair,
@@ -117,7 +121,7 @@ fn run(
     mut remember: impl FnMut(Pose<f32>, &SimulatedCar<'_>, Command, &dyn Brain),
 ) -> Outcome {
     let start = start_pose(world, model, spec, pair, &mut random);
-    let mut car = SimulatedCar::new(world, model, start, pair.goal, random);
+    let mut car = SimulatedCar::new(world, lookout, model, start, pair.goal, random);
     brain.reset();
     let mut steps = 0;
     while steps < spec.step_limit {

@@ -6,7 +6,7 @@ use crate::episode::{self, Outcome, Trace};
 use crate::failure::Failure;
 use crate::scenario::{Pair, Scenario, StepLength, words_of};
 use crate::seed::{Purpose, RunSeed, Stream};
-use crate::world::{Fan, Lookout, World};
+use crate::world::{Lookout, World};
 use controller_core::activation::ActivationKind;
 use controller_core::blob::Header;
 use controller_core::controller::Scaling;
@@ -38,9 +38,8 @@ impl Problem {
     pub fn new(scenario: Scenario) -> Result<Self, Failure> {
         let world = World::new(&scenario)?;
         let model = CarModel::new(&scenario);
-        let fan = Fan::new(&scenario.sensors.beams, scenario.sensors.range);
         Ok(Self {
-            lookout: world.lookout(fan, *model.body()),
+            lookout: model.lookout(&world),
             world,
             model,
             scaling: scaling_of(&scenario),
@@ -93,7 +92,7 @@ impl Problem {
     ) -> Vec<Outcome> {
         let drive = |(index, pair): (u32, &Pair)| {
             let spec = &self.scenario.episode;
-            episode::drive(&self.world, &self.model, spec, pair, brain, place(index))
+            episode::drive(&self.world, &self.lookout, &self.model, spec, pair, brain, place(index))
         };
         (0..).zip(pairs).map(drive).collect()
     }
@@ -106,7 +105,7 @@ impl Problem {
         random: Stream,
     ) -> (Outcome, Trace) {
         let spec = &self.scenario.episode;
-        episode::drive_traced(&self.world, &self.model, spec, pair, brain, random)
+        episode::drive_traced(&self.world, &self.lookout, &self.model, spec, pair, brain, random)
     }
 
     /// Whether the same genome always costs the same: nothing about a drive is random and every

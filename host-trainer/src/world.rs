@@ -63,10 +63,10 @@ impl World {
         self.obstacles.touch(body, pose)
     }
 
-    /// The world as one car sees and touches it: quicker than [`Self::distance`] and
-    /// [`Self::touches`] for many poses, with the same bits.
-    pub fn lookout(&self, fan: Fan, body: Body<f32>) -> Lookout {
-        Lookout::new(Arc::clone(&self.obstacles), fan, body)
+    /// The world as cars with beams of this range and with this body see and touch it: quicker
+    /// than [`Self::distance`] and [`Self::touches`], with the same bits.
+    pub fn lookout(&self, range: f32, body: Body<f32>) -> Lookout {
+        Lookout::new(Arc::clone(&self.obstacles), range, body)
     }
 
     /// Whether an obstacle's edge lies between two points.

@@ -68,7 +68,7 @@ fn step(problem: &Problem, genomes: &[f32], row: &[f64; COLUMNS]) -> (f64, bool)
     let (world, model, spec) = (&problem.world, problem.model(), &problem.scenario.episode);
     let mut random = RunSeed(0).stream(Purpose::Episode, 0, 0);
     let start: Pose<f32> = start_pose(world, model, spec, &pair, &mut random);
-    let mut car = SimulatedCar::new(world, model, start, pair.goal, random);
+    let mut car = SimulatedCar::new(world, problem.lookout(), model, start, pair.goal, random);
     let scaling = problem.scaling();
     let brain = problem.brain(genome);
     let (Ok(reading), Ok(brain)) = (car.sense(), brain) else { return (f64::INFINITY, false) };

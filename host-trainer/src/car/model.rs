@@ -4,12 +4,12 @@
 use super::body_of;
 use crate::scenario::{OnCollision, RandomiseSpec, ReachedBy, Scenario, SensorSpec};
 use crate::seed::Stream;
+use crate::world::{Fan, Lookout, World};
 use controller_core::actuator::Actuator;
-use controller_core::geometry::{Body, Disc, Ray};
+use controller_core::geometry::{Body, Disc};
 use controller_core::lane::Lane;
 use controller_core::motion::Pose;
-use controller_core::observation::{BEAMS, BeamMount, Echo};
-use controller_core::trig::sin_cos;
+use controller_core::observation::Echo;
 
 /// Everything about the car that does not change during a drive.
 #[derive(Clone, Debug)]
@@ -18,29 +18,12 @@ pub struct CarModel {
     wheelbase: f32,
     delay: usize,
     turn_per_period: Option<f32>,
-    beams: [Beam; BEAMS],
-    range: f32,
+    fan: Fan,
     noise: f32,
     dropout: f32,
     on_collision: OnCollision,
     reached_by: ReachedBy,
     randomise: RandomiseSpec,
-}
-
-/// A beam's mount, ready to be turned by the car's heading.
-#[derive(Clone, Copy, Debug)]
-struct Beam {
-    x: f32,
-    y: f32,
-    cos: f32,
-    sin: f32,
-}
-
-impl From<&BeamMount> for Beam {
-    fn from(mount: &BeamMount) -> Self {
-        let (sin, cos) = sin_cos(mount.angle);
-        Self { x: mount.x, y: mount.y, cos, sin }
-    }
 }
 
 /// How one car differs from the described one.
@@ -74,8 +57,7 @@ impl CarModel {
             wheelbase: vehicle.wheelbase,
             delay: usize::from(vehicle.delay_periods),
             turn_per_period,
-            beams: beams.each_ref().map(Beam::from),
-            range: *range,
+            fan: Fan::new(beams, *range),
             noise: *noise,
             dropout: *dropout,
             on_collision: episode.on_collision,
@@ -91,7 +73,7 @@ impl CarModel {
 
     /// Longest distance a beam reports, metres.
     pub(crate) fn range(&self) -> f32 {
-        self.range
+        self.fan.range()
     }
 
     /// Control periods between deciding and acting.
@@ -134,21 +116,21 @@ impl CarModel {
         Exemplar { wheelbase, step_scale, steer_offset }
     }
 
-    /// The beams of cars at these poses.
-    #[inline(always)]
-    pub(crate) fn rays<L: Lane>(&self, pose: &Pose<L>) -> [Ray<L>; BEAMS] {
-        let mut rays = [ray(pose, &self.beams[0]); BEAMS];
-        for (slot, beam) in rays.iter_mut().zip(&self.beams).skip(1) {
-            *slot = ray(pose, beam);
-        }
-        rays
+    /// The world as this car sees and touches it.
+    pub fn lookout(&self, world: &World) -> Lookout {
+        world.lookout(self.range(), self.body)
+    }
+
+    /// The car's beams.
+    pub(crate) fn fan(&self) -> &Fan {
+        &self.fan
     }
 
     /// What beams end on whose nearest obstacle is at `wall` and whose target at `target`,
     /// metres. A wall wins a tie: nothing is seen through it.
     #[inline(always)]
     pub(crate) fn hit<L: Lane>(&self, wall: L, target: L) -> Hit<L> {
-        let range = L::from(self.range);
+        let range = L::from(self.range());
         let on_target = target.lt(wall) & target.le(range);
         Hit { target: on_target, wall: wall.le(range) & !on_target }
     }
@@ -157,7 +139,7 @@ impl CarModel {
     pub(crate) fn disturbed(&self, echo: Echo, random: &mut Stream) -> Echo {
         let mut noisy = |distance: f32| match self.noise {
             0.0 => distance,
-            sigma => (distance + sigma * random.normal()).clamp(0.0, self.range),
+            sigma => (distance + sigma * random.normal()).clamp(0.0, self.range()),
         };
         let echo = match echo {
             Echo::Nothing => Echo::Nothing,
@@ -185,14 +167,5 @@ impl CarModel {
                 (dx * dx + dy * dy).sqrt().le(target.radius)
             }
         }
-    }
-}
-
-#[inline(always)]
-fn ray<L: Lane>(pose: &Pose<L>, beam: &Beam) -> Ray<L> {
-    let (cos, sin) = (L::from(beam.cos), L::from(beam.sin));
-    Ray {
-        origin: pose.to_world(L::from(beam.x), L::from(beam.y)),
-        direction: (pose.cos * cos - pose.sin * sin, pose.sin * cos + pose.cos * sin),
     }
 }

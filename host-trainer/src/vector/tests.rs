@@ -1,6 +1,6 @@
 //! Every width against plain `f32`, as bits, over numbers that break shortcuts.
 
-use super::{Eight, Instructions, Kernel, Slots, Vector};
+use super::{Instructions, Kernel, RowOfLane, Slots, Vector};
 use crate::seed::{Purpose, RunSeed};
 use controller_core::lane::Lane;
 
@@ -95,28 +95,50 @@ fn every_width_computes_the_bits_of_a_single_number() {
     }
 }
 
-struct Eights;
+/// Row `n` holds `4n`, `4n + 1`, `4n + 2` and `4n + 3`; lane `l` asks for row `9 - l % 7`.
+struct Rows([[f32; 4]; 10]);
 
-impl Kernel for Eights {
+fn row_of(lane: usize) -> usize {
+    9 - lane % 7
+}
+
+impl RowOfLane for &Rows {
+    #[inline(always)]
+    fn row(&self, lane: usize) -> &[f32; 4] {
+        &self.0[row_of(lane)]
+    }
+}
+
+struct Fetch;
+
+impl Kernel for Fetch {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Vector>(self) {
-        for chunk in operands().as_chunks::<8>().0 {
-            let [a, b] = [0, 1].map(|side| chunk.map(|pair| pair[side]));
-            let (wide_a, wide_b) = (V::Eight::load(&a), V::Eight::load(&b));
-            assert_eq!(V::Eight::any(wide_a.lt(wide_b)), a.iter().zip(b).any(|(a, b)| *a < b));
-            let nearest = wide_a.abs().min(wide_b.abs()).max(V::Eight::from(0.0)).least();
-            let one_by_one = a.iter().zip(b).map(|(a, b)| Lane::min(a.abs(), b.abs()).max(0.0));
-            assert_eq!(nearest, one_by_one.fold(f32::INFINITY, |least, x| Lane::min(x, least)));
+        let rows = Rows(std::array::from_fn(|row| {
+            std::array::from_fn(|column| (4 * row + column) as f32)
+        }));
+        let columns = V::rows(&rows);
+        for (column, numbers) in columns.iter().enumerate() {
+            let expected: Vec<f32> =
+                (0..V::WIDTH).map(|lane| (4 * row_of(lane) + column) as f32).collect();
+            assert_eq!(numbers.lanes(), expected);
         }
+        for (lane, place) in columns[3].places().into_iter().enumerate() {
+            let expected = if lane < V::WIDTH { 4 * row_of(lane) + 3 } else { 0 };
+            assert_eq!(place as usize, expected, "lane {lane}");
+        }
+        let mut large = V::from(0.0);
+        large.lanes_mut()[V::WIDTH - 1] = 16_777_215.0;
+        assert_eq!(large.places()[V::WIDTH - 1], 16_777_215);
     }
 }
 
 #[test]
-fn eight_at_a_time_are_the_same_eight_in_every_width() {
+fn every_lane_gets_its_own_row_and_whole_number() {
     for set in Instructions::available() {
-        set.run(Eights);
+        set.run(Fetch);
     }
 }
 

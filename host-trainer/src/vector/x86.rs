@@ -7,7 +7,7 @@
 //! be made from a bare `f32`.)
 #![allow(unsafe_code)]
 
-use super::{Eight, Instructions, Kernel, Neurons, Part, Slots, Vector, Whole, each};
+use super::{Instructions, Kernel, MOST_LANES, Part, RowOfLane, Vector, Whole, each};
 use bytemuck::{Pod, Zeroable};
 use controller_core::lane::Lane;
 use core::arch::x86_64::*;
@@ -258,15 +258,59 @@ lane!(
     |m| select: _mm512_mask_blend_ps(m, b, a)
 );
 
+/// A lane's row in a register of four.
+#[inline(always)]
+fn row(rows: &impl RowOfLane, lane: usize) -> __m128 {
+    // SAFETY: every x86-64 has SSE2, and four numbers lie there.
+    unsafe { _mm_loadu_ps(rows.row(lane).as_ptr()) }
+}
+
+/// Turns registers with a row in each four lanes into one with the first numbers of all rows, one
+/// with the second ones, and so on.
+macro_rules! turned {
+    (
+        $name:ident, $unpack_low:ident, $unpack_high:ident, $shuffle:ident,
+        [$a:ident, $b:ident, $c:ident, $d:ident]
+    ) => {{
+        // SAFETY: this type is only named where the CPU has its instructions.
+        unsafe {
+            let (ab, cd) = ($unpack_low($a, $b), $unpack_low($c, $d));
+            let (ab_high, cd_high) = ($unpack_high($a, $b), $unpack_high($c, $d));
+            [
+                $name($shuffle::<0x44>(ab, cd)),
+                $name($shuffle::<0xee>(ab, cd)),
+                $name($shuffle::<0x44>(ab_high, cd_high)),
+                $name($shuffle::<0xee>(ab_high, cd_high)),
+            ]
+        }
+    }};
+}
+
 impl Vector for Wide4 {
     const WIDTH: usize = 4;
-    const NEURONS: Neurons = Neurons::Two;
-    type Eight = Slots<Self, 2>;
 
     #[inline(always)]
     fn bits(mask: Mask4) -> u32 {
         // SAFETY: every x86-64 has SSE2.
         unsafe { _mm_movemask_ps(mask.0) as u32 }
+    }
+
+    #[inline(always)]
+    fn places(self) -> [u32; MOST_LANES] {
+        let mut places = [0; MOST_LANES];
+        // SAFETY: this type is only named where the CPU has its instructions; there is room.
+        unsafe { _mm_storeu_si128(places.as_mut_ptr().cast(), _mm_cvttps_epi32(self.0)) };
+        places
+    }
+
+    #[inline(always)]
+    fn rows<R: RowOfLane>(rows: R) -> [Self; 4] {
+        let mut four = [row(&rows, 0); 4];
+        for (lane, four) in four.iter_mut().enumerate().skip(1) {
+            *four = row(&rows, lane);
+        }
+        let [a, b, c, d] = four;
+        turned!(Self, _mm_unpacklo_ps, _mm_unpackhi_ps, _mm_shuffle_ps, [a, b, c, d])
     }
 
     #[inline(never)]
@@ -277,13 +321,31 @@ impl Vector for Wide4 {
 
 impl Vector for Wide8 {
     const WIDTH: usize = 8;
-    const NEURONS: Neurons = Neurons::Two;
-    type Eight = Self;
 
     #[inline(always)]
     fn bits(mask: Mask8) -> u32 {
         // SAFETY: this type is only named where the CPU has its instructions.
         unsafe { _mm256_movemask_ps(mask.0) as u32 }
+    }
+
+    #[inline(always)]
+    fn places(self) -> [u32; MOST_LANES] {
+        let mut places = [0; MOST_LANES];
+        // SAFETY: this type is only named where the CPU has its instructions; there is room.
+        unsafe { _mm256_storeu_si256(places.as_mut_ptr().cast(), _mm256_cvttps_epi32(self.0)) };
+        places
+    }
+
+    #[inline(always)]
+    fn rows<R: RowOfLane>(rows: R) -> [Self; 4] {
+        let mut four = [Self::from(0.0).0; 4];
+        for (lane, four) in four.iter_mut().enumerate() {
+            let (low, high) = (row(&rows, lane), row(&rows, lane + 4));
+            // SAFETY: this type is only named where the CPU has its instructions.
+            *four = unsafe { _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high) };
+        }
+        let [a, b, c, d] = four;
+        turned!(Self, _mm256_unpacklo_ps, _mm256_unpackhi_ps, _mm256_shuffle_ps, [a, b, c, d])
     }
 
     #[inline(always)]
@@ -295,8 +357,6 @@ impl Vector for Wide8 {
 
 impl Vector for Wide16 {
     const WIDTH: usize = 16;
-    const NEURONS: Neurons = Neurons::Four;
-    type Eight = Wide8;
 
     #[inline(always)]
     fn bits(mask: Mask16) -> u32 {
@@ -304,25 +364,32 @@ impl Vector for Wide16 {
     }
 
     #[inline(always)]
+    fn places(self) -> [u32; MOST_LANES] {
+        let mut places = [0; MOST_LANES];
+        // SAFETY: this type is only named where the CPU has its instructions; there is room.
+        unsafe { _mm512_storeu_si512(places.as_mut_ptr().cast(), _mm512_cvttps_epi32(self.0)) };
+        places
+    }
+
+    #[inline(always)]
+    fn rows<R: RowOfLane>(rows: R) -> [Self; 4] {
+        let mut four = [Self::from(0.0).0; 4];
+        for (lane, four) in four.iter_mut().enumerate() {
+            let [a, b] = [row(&rows, lane), row(&rows, lane + 4)];
+            let [c, d] = [row(&rows, lane + 8), row(&rows, lane + 12)];
+            // SAFETY: this type is only named where the CPU has its instructions.
+            *four = unsafe {
+                let ab = _mm512_insertf32x4::<1>(_mm512_castps128_ps512(a), b);
+                _mm512_insertf32x4::<3>(_mm512_insertf32x4::<2>(ab, c), d)
+            };
+        }
+        let [a, b, c, d] = four;
+        turned!(Self, _mm512_unpacklo_ps, _mm512_unpackhi_ps, _mm512_shuffle_ps, [a, b, c, d])
+    }
+
+    #[inline(always)]
     fn apart<P: Part<Self>>(part: P) -> P::Output {
         // SAFETY: this type is only named where the CPU has its instructions.
         unsafe { with_avx512(part) }
-    }
-}
-
-impl Eight for Wide8 {
-    #[inline(always)]
-    fn load(numbers: &[f32; 8]) -> Self {
-        bytemuck::must_cast(*numbers)
-    }
-
-    #[inline(always)]
-    fn numbers(self) -> [f32; 8] {
-        bytemuck::must_cast(self)
-    }
-
-    #[inline(always)]
-    fn any(mask: Mask8) -> bool {
-        Self::bits(mask) != 0
     }
 }

@@ -1,12 +1,13 @@
 //! A block of cars: lanes for individuals, slots for their drives.
 
-use super::cars::{Cars, lanes};
+use super::cars::Cars;
 use super::forward::Networks;
 use super::queue::{Job, Queue};
 use super::{Done, Fleet, SLOTS, Tally};
 use crate::car::CarModel;
 use crate::episode::{Outcome, start_pose};
-use crate::vector::Vector;
+use crate::vector::{Vector, ones};
+use controller_core::observation::BEAMS;
 
 /// The cars of one thread.
 pub(super) struct Block<'a, V> {
@@ -132,9 +133,18 @@ impl<'a, V: Vector> Block<'a, V> {
     pub(super) fn step(&mut self) {
         let problem = self.fleet.problem;
         let (model, world, scaling) = (problem.model(), &problem.world, problem.scaling());
-        let lookout = problem.lookout();
-        for (slot, cars) in self.cars.iter_mut().enumerate() {
-            let sight = cars.sense(model, lookout);
+        let (lookout, fan) = (problem.lookout(), model.fan());
+        let mut poses = [self.cars[0].pose; SLOTS];
+        let mut rays = [fan.rays(&poses[0]); SLOTS];
+        let mut live = [0; SLOTS];
+        for slot in 0..SLOTS {
+            poses[slot] = self.cars[slot].pose;
+            rays[slot] = fan.rays(&poses[slot]);
+            live[slot] = self.cars[slot].live;
+        }
+        let walls = lookout.distances::<V, SLOTS, { SLOTS * BEAMS }>(fan, &poses, &rays, &live);
+        for slot in 0..SLOTS {
+            let sight = self.cars[slot].sense(model, &rays[slot], &walls[slot]);
             let inputs = scaling.encoding.inputs(&sight, scaling.range);
             for (all, input) in self.networks.inputs.iter_mut().zip(inputs) {
                 all.0[slot] = input;
@@ -144,15 +154,20 @@ impl<'a, V: Vector> Block<'a, V> {
         self.clock += 1;
         let [steer, speed] = self.networks.outputs;
         let has_speed = problem.topology().outputs == 2;
+        let mut steps = [V::from(0.0); SLOTS];
         for slot in 0..SLOTS {
             let command = if has_speed {
                 scaling.commands(&[steer.0[slot], speed.0[slot]])
             } else {
                 scaling.commands(&[steer.0[slot]])
             };
-            let cars = &mut self.cars[slot];
-            self.tally.steps += u64::from(cars.live.count_ones());
-            let ends = cars.act(command, model, world, lookout);
+            (poses[slot], steps[slot]) = self.cars[slot].driven(command, model);
+        }
+        let hits = lookout.touches(&poses, &live);
+        for slot in 0..SLOTS {
+            self.tally.steps += u64::from(live[slot].count_ones());
+            let moved = (&poses[slot], steps[slot]);
+            let ends = self.cars[slot].act(moved, hits[slot], model, world);
             let mut ended = ends.reached;
             if model.stops_on_collision() {
                 ended |= ends.collided;
@@ -173,10 +188,11 @@ impl<'a, V: Vector> Block<'a, V> {
     ) -> Vec<(usize, usize, controller_core::motion::Pose<f32>, Vec<f32>)> {
         let mut cars = Vec::new();
         for slot in 0..SLOTS {
-            for lane in lanes(self.cars[slot].live) {
+            for lane in ones(self.cars[slot].live) {
                 let drive = &self.drives[lane][slot];
                 let index = self.jobs[lane].individual * self.fleet.pairs.len() + drive.pair;
-                let (pose, hidden) = (self.cars[slot].pose(lane), self.networks.hidden(slot, lane));
+                let (pose, hidden) =
+                    (self.cars[slot].pose_of(lane), self.networks.hidden(slot, lane));
                 cars.push((index, (self.clock - drive.begun) as usize, pose, hidden));
             }
         }
@@ -186,7 +202,7 @@ impl<'a, V: Vector> Block<'a, V> {
     /// Ends drives, or begins them again.
     #[inline(never)]
     fn end(&mut self, slot: usize, ended: u32, reached: u32) {
-        for lane in lanes(ended) {
+        for lane in ones(ended) {
             let has_reached = reached >> lane & 1 == 1;
             self.tally.reached += u64::from(has_reached);
             self.tally.stopped += u64::from(!has_reached);
@@ -208,7 +224,7 @@ impl<'a, V: Vector> Block<'a, V> {
     fn end_overdue(&mut self) {
         self.next_deadline = u64::MAX;
         for slot in 0..SLOTS {
-            for lane in lanes(self.cars[slot].live) {
+            for lane in ones(self.cars[slot].live) {
                 let drive = &self.drives[lane][slot];
                 if self.clock < drive.deadline {
                     self.next_deadline = self.next_deadline.min(drive.deadline);

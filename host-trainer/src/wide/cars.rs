@@ -3,17 +3,17 @@
 use crate::car::{CarModel, Exemplar};
 use crate::episode::Outcome;
 use crate::seed::Stream;
-use crate::vector::Vector;
-use crate::world::{Lookout, World, distance};
+use crate::vector::{Vector, ones};
+use crate::world::{World, distance};
 use controller_core::actuator::turned;
-use controller_core::geometry::Disc;
+use controller_core::geometry::{Disc, Ray};
 use controller_core::motion::Pose;
 use controller_core::observation::{BEAMS, Echo, Sight};
 
 /// Cars side by side. Lanes without a drive hold a car that stands still; nobody asks it.
 #[derive(Debug)]
 pub(super) struct Cars<V> {
-    pose: Pose<V>,
+    pub(super) pose: Pose<V>,
     target: Disc<V>,
     wheelbase: V,
     step_scale: V,
@@ -113,21 +113,18 @@ impl<V: Vector> Cars<V> {
 
     /// Where the car in this lane stands.
     #[cfg(test)]
-    pub(super) fn pose(&self, lane: usize) -> Pose<f32> {
+    pub(super) fn pose_of(&self, lane: usize) -> Pose<f32> {
         pose_of(&self.pose, lane)
     }
 
-    /// What the beams report.
+    /// What the beams report that have these rays and meet walls at these distances.
     #[inline(always)]
-    pub(super) fn sense(&mut self, model: &CarModel, lookout: &Lookout) -> Sight<V> {
-        let rays = model.rays(&self.pose);
-        let mut walls = [V::from(f32::INFINITY); BEAMS];
-        for lane in lanes(self.live) {
-            let distances = lookout.fan::<V::Eight>(&pose_of(&self.pose, lane));
-            for (wall, distance) in walls.iter_mut().zip(distances) {
-                wall.lanes_mut()[lane] = distance;
-            }
-        }
+    pub(super) fn sense(
+        &mut self,
+        model: &CarModel,
+        rays: &[Ray<V>; BEAMS],
+        walls: &[V; BEAMS],
+    ) -> Sight<V> {
         let (zero, one) = (V::from(0.0), V::from(1.0));
         let mut sight = Sight {
             distance: [V::from(model.range()); BEAMS],
@@ -151,7 +148,7 @@ impl<V: Vector> Cars<V> {
     /// The same through imperfect sensors, car by car and beam by beam.
     #[inline(never)]
     fn disturb(&mut self, sight: &mut Sight<V>, model: &CarModel) {
-        for lane in lanes(self.live) {
+        for lane in ones(self.live) {
             let Some(random) = &mut self.random[lane] else { continue };
             for beam in 0..BEAMS {
                 let distance = &mut sight.distance[beam].lanes_mut()[lane];
@@ -171,15 +168,14 @@ impl<V: Vector> Cars<V> {
         }
     }
 
-    /// Moves one control period after these commands: steer angles and step lengths.
+    /// Where cars come to stand that follow these commands, steer angles and step lengths, and how
+    /// far they drive.
     #[inline(always)]
-    pub(super) fn act(
+    pub(super) fn driven(
         &mut self,
         (mut angle, mut length): (V, V),
         model: &CarModel,
-        world: &World,
-        lookout: &Lookout,
-    ) -> Ends {
+    ) -> (Pose<V>, V) {
         if let Some(waiting) = self.waiting.get_mut(self.due) {
             let [due_angle, due_length] = *waiting;
             *waiting = [angle, length];
@@ -191,19 +187,28 @@ impl<V: Vector> Cars<V> {
             Some(most) => turned(self.steer, angle, most),
         };
         let step = length * self.step_scale;
-        let moved = self.pose.driven(self.steer + self.steer_offset, step, self.wheelbase);
+        (self.pose.driven(self.steer + self.steer_offset, step, self.wheelbase), step)
+    }
+
+    /// Puts cars there, or holds those that touch something there.
+    #[inline(always)]
+    pub(super) fn act(
+        &mut self,
+        (moved, step): (&Pose<V>, V),
+        mut hits: u32,
+        model: &CarModel,
+        world: &World,
+    ) -> Ends {
         let zero = V::from(0.0);
         let was_blocked = V::bits(zero.lt(self.blocked));
+        // A blocked car may jump over a wall that its body lies across.
+        for lane in ones(was_blocked & self.live & !hits) {
+            let at = |pose: &Pose<V>| [pose.x.lanes()[lane], pose.y.lanes()[lane]];
+            hits |= u32::from(world.separates(at(&self.pose), at(moved))) << lane;
+        }
         let mut blocked = zero;
-        for lane in lanes(self.live) {
-            let pose = pose_of(&moved, lane);
-            let jumps = || {
-                let (x, y) = (self.pose.x.lanes()[lane], self.pose.y.lanes()[lane]);
-                was_blocked >> lane & 1 == 1 && world.separates([x, y], [pose.x, pose.y])
-            };
-            if lookout.touches(&pose) || jumps() {
-                blocked.lanes_mut()[lane] = 1.0;
-            }
+        for lane in ones(hits) {
+            blocked.lanes_mut()[lane] = 1.0;
         }
         self.blocked = blocked;
         let collided = zero.lt(blocked);
@@ -221,7 +226,7 @@ impl<V: Vector> Cars<V> {
     }
 }
 
-#[inline(always)]
+#[cfg(test)]
 fn pose_of<V: Vector>(pose: &Pose<V>, lane: usize) -> Pose<f32> {
     Pose {
         x: pose.x.lanes()[lane],
@@ -230,13 +235,4 @@ fn pose_of<V: Vector>(pose: &Pose<V>, lane: usize) -> Pose<f32> {
         cos: pose.cos.lanes()[lane],
         sin: pose.sin.lanes()[lane],
     }
-}
-
-/// The places of the bits that are set, lowest first.
-pub(super) fn lanes(mut bits: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let lane = bits.trailing_zeros();
-        bits &= bits.checked_sub(1)?;
-        Some(lane as usize)
-    })
 }

@@ -2,7 +2,7 @@
 
 use super::SLOTS;
 use crate::brain::with_sizes;
-use crate::vector::{Neurons, Part, Slots, Vector, Weight};
+use crate::vector::{Part, Slots, Vector, Weight};
 use controller_core::activation::ActivationKind;
 use controller_core::network::{
     Elman, Feedforward, Network, Recurrence, RecurrenceKind, SelfLoop, State, Topology,
@@ -126,10 +126,9 @@ impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Part<V> for Step<
     #[inline(always)]
     fn run(self) {
         let Self { network, state, activation, inputs, outputs } = self;
-        let answer = match V::NEURONS {
-            Neurons::Two => network.step_by::<2, _>(activation, state, inputs),
-            Neurons::Four => network.step_by::<4, _>(activation, state, inputs),
-        };
+        // One neuron of all slots at a time: its sums fit the registers of every CPU, and the next
+        // neuron's fill the time that its division takes.
+        let answer = network.step_by::<1, _>(activation, state, inputs);
         for (output, answer) in outputs.iter_mut().zip(answer) {
             *output = answer;
         }

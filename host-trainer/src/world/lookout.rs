@@ -1,241 +1,234 @@
-//! What one car's beams see and its body touches, from wherever it stands.
+//! What beams see and bodies touch, from wherever they are.
 //!
-//! Positions are divided into cells and headings into sectors. For each pair, the obstacles that
-//! the beams can meet and those that the body can touch are found once: those out of range,
-//! outside of the fan, or hidden behind others are left out. The rest is tested with the same
-//! arithmetic as ever, so distances and contacts are those of a test of all obstacles, to the
-//! last bit. One thing is left to rounding: a wall that lies along a beam's line, to the last digit of
-//! both, behind the car or out of range; a test of all obstacles may compute it as met.
+//! Positions are divided into cells and directions into parts of a turn. For each cell and part,
+//! the few obstacles that a beam can meet first there, or that the body can touch, are found
+//! once: those out of range, outside of the directions, or hidden behind others are left out.
+//! The rest is tested with the same arithmetic as ever, so distances and contacts are those of a
+//! test of all obstacles, to the last bit. One thing is left to rounding: a wall that lies along a beam's line, to the
+//! last digit of both, behind the car or out of range; a test of all obstacles may compute it as
+//! met.
+//!
+//! | look in | for |
+//! | --- | --- |
+//! | `fan` | the beams of a car |
+//! | `grid` | which cell, which part of a turn |
+//! | `beams` | the tests, many beams side by side |
+//! | `shelf` | what is found once for each cell, in words of eight names |
+//! | `cell`, `candidate`, `cone`, `reach`, `rounding` | how it is found, and what may be left out |
 
 mod beams;
+mod candidate;
 mod cell;
+mod cone;
 mod fan;
 mod grid;
-mod hidden;
-mod region;
+mod reach;
 mod rounding;
-mod view;
+mod shelf;
 
 use super::obstacles::Obstacles;
-use crate::vector::Eight;
+use crate::vector::Vector;
 use beams::Beams;
-use cell::{Cell, Choice, Table, table_of_all};
-use controller_core::geometry::{Body, Ray};
+use cell::{BINS, SECTORS};
+use controller_core::geometry::{Body, Disc, Ray, Segment};
 use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
-use grid::Grid;
-use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
-use std::sync::{Arc, OnceLock};
+use grid::{Grid, part_of_turn};
+use shelf::{Asked, Question, Shelf};
+use std::sync::Arc;
 
 pub use fan::Fan;
+pub use shelf::Survey;
 
-/// Side of a cell, metres.
-const CELL: f32 = 0.35;
-
-/// Most cells of a grid; a larger world has larger cells.
-const MAX_CELLS: usize = 1 << 26;
-
-/// Cells in a row and rows in a block, which is allocated at the first visit.
-const BLOCK: usize = 8;
-
-/// Visits of a cell before it is looked at closely: that costs as much as answering about so many
-/// questions without.
-const VISITS: u32 = 24;
-
-/// Cells take at most about this much memory; where there is none yet when it is used up, all
-/// obstacles are asked.
-const MAX_BYTES: usize = 256 << 20;
-
-/// Distances and contacts of one car in one world.
+/// Distances and contacts of cars with one kind of body in one world.
 #[derive(Debug)]
 pub struct Lookout {
     obstacles: Arc<Obstacles>,
-    fan: Fan,
+    range: f32,
     body: Body<f32>,
-    joint: f64,
-    table: Option<Table>,
+    slack: f32,
     grid: Grid,
-    blocks_per_row: usize,
-    blocks: Box<[OnceLock<Box<Block>>]>,
-    bytes: AtomicUsize,
-    visits: u32,
-}
-
-type Block = [Place; BLOCK * BLOCK];
-
-/// Where a cell is kept once it is made.
-#[derive(Debug, Default)]
-struct Place {
-    cell: OnceLock<Box<Cell>>,
-    visits: AtomicU32,
-}
-
-/// How much the cells of a [`Lookout`] hold.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Survey {
-    /// Memory that they take, with the places they are kept in, bytes.
-    pub bytes: usize,
-    /// Obstacles in sight, for each cell made and each sector, ascending.
-    pub seen: Vec<usize>,
-    /// Obstacles within the body's reach, likewise.
-    pub near: Vec<usize>,
+    shelf: Shelf,
 }
 
 impl Lookout {
-    /// Prepares for a car with these beams and this body. Costs next to nothing: cells are
-    /// looked at where the car turns up.
-    pub fn new(obstacles: Arc<Obstacles>, fan: Fan, body: Body<f32>) -> Self {
+    /// Prepares for beams that reach `range` metres, and for this body. Costs next to nothing:
+    /// cells are looked at where a car turns up.
+    pub fn new(obstacles: Arc<Obstacles>, range: f32, body: Body<f32>) -> Self {
         let [low, high] = obstacles.bounds();
-        let grid = Grid::new(low, high, CELL, MAX_CELLS);
-        let blocks_per_row = grid.columns.div_ceil(BLOCK);
-        let blocks = blocks_per_row * grid.rows.div_ceil(BLOCK);
-        Self {
-            joint: f64::from(obstacles.joint(fan.range())),
-            table: table_of_all(&obstacles),
-            obstacles,
-            fan,
-            body,
-            grid,
-            blocks_per_row,
-            blocks: (0..blocks).map(|_| OnceLock::new()).collect(),
-            bytes: AtomicUsize::new(0),
-            visits: VISITS,
-        }
+        let grid = Grid::new(low, high);
+        let shelf = Shelf::new(&obstacles, &grid, range, body);
+        Self { slack: shelf.slack(), obstacles, range, body, grid, shelf }
     }
 
-    /// The same, but each cell is looked at closely at its first visit: for measurements and
-    /// tests.
-    #[must_use]
-    pub fn eager(self) -> Self {
-        Self { visits: 0, ..self }
-    }
-
-    /// How far each beam of a car at this pose reaches, metres: the distance to the nearest
-    /// obstacle, or infinity if there is none within range.
+    /// How far the beams of cars at these poses go, metres: the distance to the nearest obstacle, or
+    /// infinity if there is none within range. `rays` are those that the fan has there. Lanes whose
+    /// bit in `live` is not set hold anything.
     ///
-    /// The pose's heading, cosine and sine must belong together, as they do in every pose made
-    /// by [`Pose::new`] and [`Pose::driven`].
-    ///
-    /// Inlined into its caller, and as fast as the caller's vectors of eight.
+    /// A pose's heading, cosine and sine must belong together, as they do in every pose made by
+    /// [`Pose::new`] and [`Pose::driven`].
     #[inline(always)]
-    pub fn fan<E: Eight>(&self, pose: &Pose<f32>) -> [f32; BEAMS] {
-        let Some((cell, sector)) = self.cell(pose) else { return self.fan_of_all(pose) };
-        let mut beams = Beams::<E>::new(self.fan.turned(pose));
-        match cell.choice(sector) {
-            Choice::Named(named) => {
-                for edge in named.seen() {
-                    beams = beams.wall(edge);
-                }
-            }
-            Choice::Long(view) => {
-                for edge in &view.edges {
-                    beams = beams.wall(edge);
-                }
-                for disc in &view.discs {
-                    beams = beams.disc(disc);
-                }
-            }
-        }
-        let near = beams.nearest(self.fan.range());
-        if beams.are_doubtful(cell.slack) {
-            return self.settled(pose, near, beams.past(), cell.slack);
-        }
-        near
-    }
-
-    /// Whether the body at this pose touches an obstacle's edge, or lies inside a disc.
-    #[inline(always)]
-    pub fn touches(&self, pose: &Pose<f32>) -> bool {
-        let Some((cell, sector)) = self.cell(pose) else { return self.touches_any(pose) };
-        let body = &self.body;
-        match cell.choice(sector) {
-            Choice::Named(named) => named.near().any(|wall| body.touches_segment(pose, wall)),
-            Choice::Long(view) => {
-                view.walls_near.iter().any(|wall| body.touches_segment(pose, wall))
-                    || view.discs_near.iter().any(|disc| body.touches_disc(pose, disc))
-            }
-        }
-    }
-
-    /// The cells made so far.
-    pub fn survey(&self) -> Survey {
-        let places = self.blocks.iter().filter_map(OnceLock::get).flat_map(|block| block.iter());
-        let counts = places.filter_map(|place| place.cell.get()).flat_map(|cell| cell.counts());
-        let (mut seen, mut near): (Vec<_>, Vec<_>) = counts.unzip();
-        seen.sort_unstable();
-        near.sort_unstable();
-        Survey { bytes: self.bytes.load(Ordering::Relaxed), seen, near }
-    }
-
-    #[inline(always)]
-    fn cell(&self, pose: &Pose<f32>) -> Option<(&Cell, usize)> {
-        let (column, row, sector) = self.grid.locate(pose)?;
-        let block = self.blocks.get(row / BLOCK * self.blocks_per_row + column / BLOCK)?.get();
-        let index = row % BLOCK * BLOCK + column % BLOCK;
-        let cell = match block.and_then(|block| block[index].cell.get()) {
-            Some(cell) => cell,
-            None => self.visit(column, row)?,
-        };
-        Some((cell, sector))
-    }
-
-    /// Counts a visit; makes the cell when there have been enough.
-    #[cold]
-    #[inline(never)]
-    fn visit(&self, column: usize, row: usize) -> Option<&Cell> {
-        let block =
-            self.blocks[row / BLOCK * self.blocks_per_row + column / BLOCK].get_or_init(|| {
-                self.bytes.fetch_add(size_of::<Block>(), Ordering::Relaxed);
-                Box::new(std::array::from_fn(|_| Place::default()))
-            });
-        let place = &block[row % BLOCK * BLOCK + column % BLOCK];
-        let visits = place.visits.fetch_add(1, Ordering::Relaxed);
-        if visits < self.visits || self.bytes.load(Ordering::Relaxed) > MAX_BYTES {
-            return None;
-        }
-        Some(place.cell.get_or_init(|| {
-            let regions = self.grid.regions(column, row);
-            let Self { obstacles, fan, body, joint, table, .. } = self;
-            let cell = Cell::new(obstacles, &regions, fan, body, *joint, table.as_ref());
-            self.bytes.fetch_add(cell.bytes(table.is_some()), Ordering::Relaxed);
-            Box::new(cell)
-        }))
-    }
-
-    /// Asks all obstacles about the beams in doubt.
-    #[cold]
-    #[inline(never)]
-    fn settled(
+    pub fn distances<V: Vector, const N: usize, const Q: usize>(
         &self,
-        pose: &Pose<f32>,
-        mut near: [f32; BEAMS],
-        past: [f32; BEAMS],
-        slack: f32,
-    ) -> [f32; BEAMS] {
-        let rays = self.fan.rays(pose);
-        for ((near, past), ray) in near.iter_mut().zip(past).zip(&rays) {
-            if past <= slack {
-                *near = self.nearest_of_all(ray);
+        fan: &Fan,
+        poses: &[Pose<V>; N],
+        rays: &[[Ray<V>; BEAMS]; N],
+        live: &[u32; N],
+    ) -> [[V; BEAMS]; N] {
+        const { assert!(Q == N * BEAMS) };
+        // First everything that is to be loaded, then everything that is to be computed: so the
+        // CPU never waits for the one to begin the other.
+        let mut asked = Asked::<Q>::new();
+        let mut bins = [[V::from(0.0); BEAMS]; N];
+        let mut beams = [[Beams::new(rays[0][0]); BEAMS]; N];
+        for car in 0..N {
+            let mut shelves = self.shelf.shelves(self.grid.locate(rays[car][0].origin));
+            for beam in 0..BEAMS {
+                if beam > 0 && !fan.has_one_origin() {
+                    shelves = self.shelf.shelves(self.grid.locate(rays[car][beam].origin));
+                }
+                let bin = part_of_turn::<V, BINS>(fan.angle(beam, &poses[car]));
+                self.shelf.ask_seen(&mut asked, car * BEAMS + beam, shelves, bin);
+                bins[car][beam] = bin;
+                beams[car][beam] = Beams::new(rays[car][beam]);
             }
         }
-        near
+        let all = beams.as_flattened_mut();
+        for round in 0..Asked::<Q>::ROUNDS {
+            for index in asked.with_name(round) {
+                let rows = self.shelf.edges(&asked, index, round);
+                if self.shelf.has_discs() {
+                    all[index].any(rows);
+                } else {
+                    all[index].wall(rows);
+                }
+            }
+        }
+        let mut distances = [[V::from(f32::INFINITY); BEAMS]; N];
+        for car in 0..N {
+            for beam in 0..BEAMS {
+                let (question, met) = (car * BEAMS + beam, &beams[car][beam]);
+                let distance = &mut distances[car][beam];
+                *distance = met.nearest(self.range);
+                let doubtful = V::bits(met.doubtful(self.slack));
+                let mut open = (asked.unknown::<V>(question) | doubtful) & live[car];
+                if open != 0 {
+                    open &= asked.unsure::<V>(question);
+                    self.settle(&rays[car][beam], bins[car][beam], open, distance);
+                }
+            }
+        }
+        distances
+    }
+
+    /// Which of the bodies at these poses touch an obstacle's edge, or lie inside a disc, as
+    /// bits; only those whose bit in `live` is set.
+    #[inline(always)]
+    pub fn touches<V: Vector, const N: usize>(
+        &self,
+        poses: &[Pose<V>; N],
+        live: &[u32; N],
+    ) -> [u32; N] {
+        let mut asked = Asked::<N>::new();
+        let mut sectors = [V::from(0.0); N];
+        for car in 0..N {
+            let shelves = self.shelf.shelves(self.grid.locate((poses[car].x, poses[car].y)));
+            sectors[car] = part_of_turn::<V, SECTORS>(poses[car].heading);
+            self.shelf.ask_near(&mut asked, car, shelves, sectors[car]);
+        }
+        let Body { rear, front, half_width } = self.body;
+        let body =
+            Body { rear: V::from(rear), front: V::from(front), half_width: V::from(half_width) };
+        let mut touched = [0; N];
+        for round in 0..Asked::<N>::ROUNDS {
+            for car in asked.with_name(round) {
+                let [a, b, c, d] = self.shelf.faces(&asked, car, round);
+                let wall = Segment { a: (a, b), b: (c, d) };
+                let mut touches = body.touches_segment(&poses[car], &wall);
+                if self.shelf.has_discs() {
+                    let is_disc = beams::are_discs(&[a, b, c, d]);
+                    let disc = Disc { centre: (a, b), radius: c };
+                    let in_disc = body.touches_disc(&poses[car], &disc);
+                    touches = (touches & !is_disc) | (in_disc & is_disc);
+                }
+                touched[car] |= V::bits(touches);
+            }
+        }
+        for car in 0..N {
+            let open = asked.unknown::<V>(car) & live[car];
+            touched[car] &= live[car] & !open;
+            if open != 0 {
+                touched[car] |= self.settle_touch(&poses[car], sectors[car], open);
+            }
+        }
+        touched
+    }
+
+    /// Answers for beams whose word does not say everything, or that pass a wall's end too
+    /// closely to be sure.
+    #[cold]
+    #[inline(never)]
+    fn settle<V: Vector>(&self, ray: &Ray<V>, bins: V, open: u32, distance: &mut V) {
+        let cells = self.grid.locate(ray.origin);
+        for lane in (0..V::WIDTH).filter(|lane| open >> lane & 1 == 1) {
+            let at = |(x, y): (V, V)| (x.lanes()[lane], y.lanes()[lane]);
+            let number = |number: V| number.lanes()[lane] as u32;
+            let ray = Ray { origin: at(ray.origin), direction: at(ray.direction) };
+            distance.lanes_mut()[lane] = self.settled(&ray, number(cells), number(bins));
+        }
+    }
+
+    fn settled(&self, ray: &Ray<f32>, cell: u32, bin: u32) -> f32 {
+        let mut beams = Beams::<f32>::new(*ray);
+        let question = Question::Seen(bin);
+        let sure = self.shelf.each(&self.grid, &self.obstacles, cell, question, |row| {
+            beams.any(*row);
+        });
+        if let Some(joint) = sure
+            && !(joint && beams.doubtful(self.slack))
+        {
+            return beams.nearest(self.range);
+        }
+        let distance = self.obstacles.distance(ray, self.range);
+        if distance <= self.range { distance } else { f32::INFINITY }
     }
 
     #[cold]
     #[inline(never)]
-    fn fan_of_all(&self, pose: &Pose<f32>) -> [f32; BEAMS] {
-        self.fan.rays(pose).map(|ray| self.nearest_of_all(&ray))
+    fn settle_touch<V: Vector>(&self, pose: &Pose<V>, sectors: V, open: u32) -> u32 {
+        let cells = self.grid.locate((pose.x, pose.y));
+        let mut touched = 0;
+        for lane in (0..V::WIDTH).filter(|lane| open >> lane & 1 == 1) {
+            let number = |number: V| number.lanes()[lane];
+            let pose = Pose {
+                x: number(pose.x),
+                y: number(pose.y),
+                heading: number(pose.heading),
+                cos: number(pose.cos),
+                sin: number(pose.sin),
+            };
+            let touches = self.settled_touch(&pose, number(cells) as u32, number(sectors) as u32);
+            touched |= u32::from(touches) << lane;
+        }
+        touched
     }
 
-    fn nearest_of_all(&self, ray: &Ray<f32>) -> f32 {
-        let range = self.fan.range();
-        let distance = self.obstacles.distance(ray, range);
-        if distance <= range { distance } else { f32::INFINITY }
+    fn settled_touch(&self, pose: &Pose<f32>, cell: u32, sector: u32) -> bool {
+        let mut touches = false;
+        let question = Question::Near(sector);
+        let known = self.shelf.each(&self.grid, &self.obstacles, cell, question, |row| {
+            let [a, b, c, d] = *row;
+            touches |= if beams::are_discs(row) {
+                self.body.touches_disc(pose, &Disc { centre: (a, b), radius: c })
+            } else {
+                self.body.touches_segment(pose, &Segment { a: (a, b), b: (c, d) })
+            };
+        });
+        if known.is_some() { touches } else { self.obstacles.touch(&self.body, pose) }
     }
 
-    #[cold]
-    #[inline(never)]
-    fn touches_any(&self, pose: &Pose<f32>) -> bool {
-        self.obstacles.touch(&self.body, pose)
+    /// The cells visited so far.
+    pub fn survey(&self) -> Survey {
+        self.shelf.survey(&self.grid, &self.obstacles)
     }
 }

@@ -152,6 +152,13 @@ impl Obstacles {
         [[x0, y0], [x1, y1]]
     }
 
+    /// The longest wall or the widest disc, metres.
+    pub(super) fn largest(&self) -> f64 {
+        let walls = self.walls.iter().map(|wall| Shape::from(wall).length);
+        let discs = self.discs.iter().map(|disc| 2.0 * f64::from(disc.radius));
+        walls.chain(discs).fold(0.0, f64::max)
+    }
+
     /// How far apart the ends of walls that meet may lie, metres: both are lengthened there, by
     /// `super::CORNER_OVERLAP` or by 8 units in the last place of the largest number in play.
     pub(super) fn joint(&self, range: f32) -> f32 {

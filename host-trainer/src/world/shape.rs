@@ -9,10 +9,6 @@ pub(super) fn minus(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-pub(super) fn along(a: Point, direction: Point, by: f64) -> Point {
-    [a[0] + direction[0] * by, a[1] + direction[1] * by]
-}
-
 pub(super) fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
@@ -42,17 +38,6 @@ impl Rect {
         Self {
             low: [self.low[0] - by, self.low[1] - by],
             high: [self.high[0] + by, self.high[1] + by],
-        }
-    }
-
-    pub(super) fn moved(self, by: Point) -> Self {
-        Self { low: along(self.low, by, 1.0), high: along(self.high, by, 1.0) }
-    }
-
-    pub(super) fn joined(self, other: Self) -> Self {
-        Self {
-            low: [self.low[0].min(other.low[0]), self.low[1].min(other.low[1])],
-            high: [self.high[0].max(other.high[0]), self.high[1].max(other.high[1])],
         }
     }
 
@@ -146,66 +131,4 @@ impl Shape {
         let all = ends.flat_map(|end| rect.corners().map(|corner| length(minus(end, corner))));
         all.fold(0.0, f64::max) + self.radius
     }
-
-    /// Distance between two shapes.
-    pub(super) fn gap(&self, other: &Self) -> f64 {
-        let touching = self.is_wall() && other.is_wall() && self.crosses(other);
-        if touching {
-            return 0.0;
-        }
-        let to_other = self.ends.map(|end| other.away(end));
-        let to_self = other.ends.map(|end| self.away(end));
-        let least = to_other.into_iter().chain(to_self).fold(f64::INFINITY, f64::min);
-        (least - self.radius - other.radius).max(0.0)
-    }
-
-    /// Distance from a point to the line between the ends.
-    fn away(&self, point: Point) -> f64 {
-        let from = minus(point, self.ends[0]);
-        let nearest = dot(from, self.direction).clamp(0.0, self.length);
-        length(minus(from, [self.direction[0] * nearest, self.direction[1] * nearest]))
-    }
-
-    fn crosses(&self, other: &Self) -> bool {
-        let sides = |wall: &Self, points: [Point; 2]| {
-            points.map(|point| cross(wall.direction, minus(point, wall.ends[0])) > 0.0)
-        };
-        let [a, b] = sides(self, other.ends);
-        let [c, d] = sides(other, self.ends);
-        a != b && c != d
-    }
-}
-
-/// Corners of the smallest convex outline around some points, counter-clockwise.
-pub(super) fn hull(points: &mut [Point]) -> Vec<Point> {
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let mut outline: Vec<Point> = Vec::with_capacity(points.len() + 1);
-    let turns_left = |outline: &[Point], point: Point| {
-        let [.., a, b] = outline else { return true };
-        cross(minus(*b, *a), minus(point, *b)) > 0.0
-    };
-    for point in points.iter() {
-        while !turns_left(&outline, *point) {
-            outline.pop();
-        }
-        outline.push(*point);
-    }
-    let lower = outline.len();
-    for point in points.iter().rev().skip(1) {
-        while outline.len() > lower && !turns_left(&outline, *point) {
-            outline.pop();
-        }
-        outline.push(*point);
-    }
-    outline.pop();
-    outline
-}
-
-/// Whether a point lies at least `margin` outside of a convex outline.
-pub(super) fn is_outside(outline: &[Point], point: Point, margin: f64) -> bool {
-    let next = outline.iter().cycle().skip(1);
-    outline.iter().zip(next).any(|(a, b)| {
-        let edge = minus(*b, *a);
-        cross(edge, minus(point, *a)) < -margin * length(edge)
-    })
 }

@@ -121,6 +121,7 @@ fn the_five_beams_tell_wall_target_and_nothing_apart_as_parry_does() {
         scenario.sensors.range = 4.0;
         let world = world_of(&scenario);
         let model = CarModel::new(&scenario);
+        let lookout = model.lookout(&world);
         let walls = compound(&world);
         let mut random = random(12);
         let (mut kinds, mut unsure) = ([0; 3], 0);
@@ -135,7 +136,7 @@ fn the_five_beams_tell_wall_target_and_nothing_apart_as_parry_does() {
                 continue;
             }
             let stream = crate::worlds::random(0);
-            let car = SimulatedCar::new(&world, &model, pose, [goal.x, goal.y], stream);
+            let car = SimulatedCar::new(&world, &lookout, &model, pose, [goal.x, goal.y], stream);
             for (mount, echo) in scenario.sensors.beams.iter().zip(car.echoes()) {
                 // The beam's direction by another way than the car's.
                 let angle = f64::from(pose.heading) + f64::from(mount.angle);

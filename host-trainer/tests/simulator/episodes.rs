@@ -200,8 +200,10 @@ fn nothing_is_random_unless_a_scenario_asks_for_it() {
     assert_eq!(one, other);
     // What the car reports is what an exact sensor sees.
     let model = CarModel::new(&problem.scenario);
+    let lookout = model.lookout(&problem.world);
     for step in &one.1.steps {
-        let car = SimulatedCar::new(&problem.world, &model, step.pose, EAST.goal, random(3));
+        let car =
+            SimulatedCar::new(&problem.world, &lookout, &model, step.pose, EAST.goal, random(3));
         assert_eq!(car.echoes(), step.echoes);
     }
 }
@@ -344,9 +346,10 @@ fn beams_start_at_their_mounts() {
     scenario.sensors.beams[0].y = -0.1;
     scenario.sensors.beams[0].angle = -FRAC_PI_2;
     let (world, model) = (world_of(&scenario), CarModel::new(&scenario));
+    let lookout = model.lookout(&world);
     // Facing north from (2, 3) in the room of 10 m: 7 m to the wall ahead, 8 m to the right.
     let pose = Pose::new(2.0, 3.0, FRAC_PI_2);
-    let echoes = SimulatedCar::new(&world, &model, pose, [1.0, 1.0], random(0)).echoes();
+    let echoes = SimulatedCar::new(&world, &lookout, &model, pose, [1.0, 1.0], random(0)).echoes();
     let Echo::Wall(ahead) = echoes[2] else { panic!("{echoes:?}") };
     let Echo::Wall(right) = echoes[0] else { panic!("{echoes:?}") };
     assert!((ahead - 6.95).abs() < 1e-5 && (right - 7.9).abs() < 1e-5, "{ahead} {right}");

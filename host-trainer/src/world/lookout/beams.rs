@@ -1,100 +1,121 @@
-//! The beams of one car side by side, against one obstacle after the other.
+//! Beams side by side, one of each car, against the walls and discs that each may meet.
 //!
 //! Inlined into its callers, whose vector instructions it uses; for the same reason nothing here
 //! hands a vector to a closure.
 
-use crate::vector::Eight;
+use crate::vector::Vector;
 use controller_core::geometry::{Disc, Ray, Segment};
-use controller_core::observation::BEAMS;
 
-/// Beams side by side; those past [`BEAMS`] repeat the first.
-pub(super) const WIDTH: usize = 8;
+/// An obstacle as four numbers: of a wall its first end and the vector from there to the other as
+/// beams meet it, or both ends as bodies do; of a disc its centre, its radius and [`DISC`].
+pub(super) type Row = [f32; 4];
 
-/// A wall as a beam meets it: its first end, and the vector from there to the other.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(16))]
-pub(super) struct Edge {
-    start: (f32, f32),
-    along: (f32, f32),
+/// What a disc has as its fourth number; no wall has it.
+const DISC: f32 = f32::INFINITY;
+
+/// Far outside of every world, in a direction in which no car is likely to look.
+const NOWHERE: [f32; 2] = [1.0e9, -7.3e8];
+
+/// What no beam meets and no body touches.
+pub(super) const NOTHING: Row = [NOWHERE[0], NOWHERE[1], 0.0, 0.0];
+
+/// The same as bodies meet it.
+pub(super) const NOTHING_NEAR: Row = [NOWHERE[0], NOWHERE[1], NOWHERE[0], NOWHERE[1]];
+
+/// A wall as beams meet it.
+pub(super) fn edge(wall: &Segment<f32>) -> Row {
+    [wall.a.0, wall.a.1, wall.b.0 - wall.a.0, wall.b.1 - wall.a.1]
 }
 
-impl From<&Segment<f32>> for Edge {
-    fn from(wall: &Segment<f32>) -> Self {
-        Self { start: wall.a, along: (wall.b.0 - wall.a.0, wall.b.1 - wall.a.1) }
-    }
+/// A wall as bodies meet it.
+pub(super) fn face(wall: &Segment<f32>) -> Row {
+    [wall.a.0, wall.a.1, wall.b.0, wall.b.1]
+}
+
+/// A disc as both meet it.
+pub(super) fn disc(disc: &Disc<f32>) -> Row {
+    [disc.centre.0, disc.centre.1, disc.radius, DISC]
+}
+
+/// Which of these obstacles are discs.
+#[inline(always)]
+pub(super) fn are_discs<V: Vector>(rows: &[V; 4]) -> V::Mask {
+    V::from(DISC).le(rows[3])
 }
 
 /// Beams, and what they have met so far.
 #[derive(Clone, Copy)]
-pub(super) struct Beams<E> {
-    ray: Ray<E>,
-    near: E,
-    past: E,
+pub(super) struct Beams<V> {
+    ray: Ray<V>,
+    near: V,
+    past: V,
 }
 
-impl<E: Eight> Beams<E> {
+impl<V: Vector> Beams<V> {
     /// Nothing met yet.
     #[inline(always)]
-    pub(super) fn new(ray: Ray<E>) -> Self {
-        let nothing = E::from(f32::INFINITY);
+    pub(super) fn new(ray: Ray<V>) -> Self {
+        let nothing = V::from(f32::INFINITY);
         Self { ray, near: nothing, past: nothing }
     }
 
-    /// Tests a wall.
+    /// Tests a wall for each beam.
     ///
     /// The numbers are those of [`Ray::to_segment`], operation by operation. Only the tests differ:
     /// a hit has `0 ≤ along ≤ den`, that is, neither `along` nor `den - along` is negative; and
     /// `den` = 0 needs no test of its own, since the quotient is then infinite or NaN, which no
     /// minimum takes.
     #[inline(always)]
-    pub(super) fn wall(self, edge: &Edge) -> Self {
-        let zero = E::from(0.0);
+    pub(super) fn wall(&mut self, [x, y, ex, ey]: [V; 4]) {
+        let (distance, inside) = self.to_wall([x, y, ex, ey]);
+        self.near = distance.min(self.near);
+        self.past = inside.abs().min(self.past);
+    }
+
+    /// Tests a wall or a disc for each beam.
+    #[inline(always)]
+    pub(super) fn any(&mut self, row: [V; 4]) {
+        let is_disc = are_discs(&row);
+        let (distance, inside) = self.to_wall(row);
+        let disc = Disc { centre: (row[0], row[1]), radius: row[2] };
+        let infinity = V::from(f32::INFINITY);
+        let distance = V::select(is_disc, self.ray.to_disc(&disc), distance);
+        let inside = V::select(is_disc, infinity, inside.abs());
+        self.near = distance.min(self.near);
+        self.past = inside.min(self.past);
+    }
+
+    /// Distance to a wall, and how far inside of its nearer end the beam's line passes, metres;
+    /// negative outside.
+    #[inline(always)]
+    fn to_wall(&self, [x, y, ex, ey]: [V; 4]) -> (V, V) {
+        let zero = V::from(0.0);
         let (dx, dy) = self.ray.direction;
-        let (ex, ey) = (E::from(edge.along.0), E::from(edge.along.1));
-        let wx = E::from(edge.start.0) - self.ray.origin.0;
-        let wy = E::from(edge.start.1) - self.ray.origin.1;
+        let wx = x - self.ray.origin.0;
+        let wy = y - self.ray.origin.1;
         let den = dx * ey - dy * ex;
         let along = wx * dy - wy * dx;
         let ahead = wx * ey - wy * ex;
         let flip = den.lt(zero);
         let den_size = den.abs();
-        let along = E::select(flip, -along, along);
-        let ahead = E::select(flip, -ahead, ahead);
-        // How far inside of the nearer end; negative outside.
+        let along = V::select(flip, -along, along);
+        let ahead = V::select(flip, -ahead, ahead);
         let inside = (den_size - along).min(along);
         let hit = zero.le(ahead.min(inside));
-        let distance = E::select(hit, ahead / den_size, E::from(f32::INFINITY));
-        Self { near: distance.min(self.near), past: inside.abs().min(self.past), ..self }
+        (V::select(hit, ahead / den_size, V::from(f32::INFINITY)), inside)
     }
 
-    /// Tests a disc.
+    /// Distance to the nearest obstacle, metres; infinity where there is none within the range.
     #[inline(always)]
-    pub(super) fn disc(self, disc: &Disc<f32>) -> Self {
-        let centre = (E::from(disc.centre.0), E::from(disc.centre.1));
-        let disc = Disc { centre, radius: E::from(disc.radius) };
-        Self { near: self.ray.to_disc(&disc).min(self.near), ..self }
-    }
-
-    /// Distance to the nearest obstacle, metres, by beam; infinity where there is none within
-    /// the range.
-    #[inline(always)]
-    pub(super) fn nearest(self, range: f32) -> [f32; BEAMS] {
+    pub(super) fn nearest(&self, range: f32) -> V {
         // Which zero is least depends on the order of obstacles; the sum is the positive one.
-        let within = self.near.le(E::from(range));
-        let near = E::select(within, self.near + E::from(0.0), E::from(f32::INFINITY));
-        let [a, b, c, d, e, ..] = near.numbers();
-        [a, b, c, d, e]
+        let within = self.near.le(V::from(range));
+        V::select(within, self.near + V::from(0.0), V::from(f32::INFINITY))
     }
 
-    /// Whether any beam's line passes any wall's end within `slack`.
+    /// Which beams' lines pass any tested wall's end within `slack` metres.
     #[inline(always)]
-    pub(super) fn are_doubtful(self, slack: f32) -> bool {
-        E::any(self.past.le(E::from(slack)))
-    }
-
-    /// Distance from each beam's line to the nearest end of a wall, metres.
-    pub(super) fn past(self) -> [f32; BEAMS] {
-        let [a, b, c, d, e, ..] = self.past.numbers();
-        [a, b, c, d, e]
+    pub(super) fn doubtful(&self, slack: f32) -> V::Mask {
+        self.past.le(V::from(slack))
     }
 }

@@ -1,31 +1,37 @@
 //! The car's beams, ready to be turned by its heading.
 
-use super::beams::WIDTH;
-use crate::vector::Eight;
 use controller_core::geometry::Ray;
-use controller_core::lane::Lanes;
+use controller_core::lane::Lane;
 use controller_core::motion::Pose;
 use controller_core::observation::{BEAMS, BeamMount};
 use controller_core::trig::sin_cos;
-use std::array::from_fn;
 
 /// The beams of a car, and how far they reach.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fan {
-    x: [f32; WIDTH],
-    y: [f32; WIDTH],
-    cos: [f32; WIDTH],
-    sin: [f32; WIDTH],
+    beams: [Beam; BEAMS],
     range: f32,
+    has_one_origin: bool,
+}
+
+/// A beam's mount, with the cosine and sine of its angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Beam {
+    mount: BeamMount,
+    cos: f32,
+    sin: f32,
 }
 
 impl Fan {
     /// Beams at these mounts that reach `range` metres.
     pub fn new(mounts: &[BeamMount; BEAMS], range: f32) -> Self {
-        let mount: [&BeamMount; WIDTH] = from_fn(|lane| &mounts[lane % BEAMS]);
-        let (sin, cos) = sin_cos(Lanes(mount.map(|mount| mount.angle)));
-        let (x, y) = (mount.map(|mount| mount.x), mount.map(|mount| mount.y));
-        Self { x, y, cos: cos.0, sin: sin.0, range }
+        let beams = mounts.map(|mount| {
+            let (sin, cos) = sin_cos(mount.angle);
+            Beam { mount, cos, sin }
+        });
+        let starts_with_first =
+            |mount: &BeamMount| (mount.x, mount.y) == (mounts[0].x, mounts[0].y);
+        Self { beams, range, has_one_origin: mounts.iter().all(starts_with_first) }
     }
 
     /// How far the beams reach, metres.
@@ -33,28 +39,36 @@ impl Fan {
         self.range
     }
 
-    /// Where each beam starts, and the cosine and sine of its angle.
-    pub(super) fn mounts(&self) -> [[f64; 4]; BEAMS] {
-        let Self { x, y, cos, sin, .. } = self;
-        from_fn(|beam| [x, y, cos, sin].map(|lanes| f64::from(lanes[beam])))
-    }
-
-    /// The beams as rays of a car at this pose.
-    pub fn rays(&self, pose: &Pose<f32>) -> [Ray<f32>; BEAMS] {
-        let Ray { origin: (x, y), direction: (dx, dy) } = self.turned::<Lanes<WIDTH>>(pose);
-        from_fn(|beam| Ray { origin: (x.0[beam], y.0[beam]), direction: (dx.0[beam], dy.0[beam]) })
-    }
-
-    /// The same side by side.
+    /// Whether all beams start at the same point of the car.
     #[inline(always)]
-    pub(super) fn turned<E: Eight>(&self, pose: &Pose<f32>) -> Ray<E> {
-        let (cos, sin) = (E::from(pose.cos), E::from(pose.sin));
-        let heading = E::from(pose.heading);
-        let wide = Pose { x: E::from(pose.x), y: E::from(pose.y), heading, cos, sin };
-        let (beam_cos, beam_sin) = (E::load(&self.cos), E::load(&self.sin));
+    pub(super) fn has_one_origin(&self) -> bool {
+        self.has_one_origin
+    }
+
+    /// The directions of one beam of cars at these poses, radians.
+    #[inline(always)]
+    pub(super) fn angle<L: Lane>(&self, beam: usize, pose: &Pose<L>) -> L {
+        pose.heading + L::from(self.beams[beam].mount.angle)
+    }
+
+    /// The beams of cars at these poses, rightmost first.
+    #[inline(always)]
+    pub fn rays<L: Lane>(&self, pose: &Pose<L>) -> [Ray<L>; BEAMS] {
+        let mut rays = [self.beams[0].ray(pose); BEAMS];
+        for (slot, beam) in rays.iter_mut().zip(&self.beams).skip(1) {
+            *slot = beam.ray(pose);
+        }
+        rays
+    }
+}
+
+impl Beam {
+    #[inline(always)]
+    fn ray<L: Lane>(&self, pose: &Pose<L>) -> Ray<L> {
+        let (cos, sin) = (L::from(self.cos), L::from(self.sin));
         Ray {
-            origin: wide.to_world(E::load(&self.x), E::load(&self.y)),
-            direction: (cos * beam_cos - sin * beam_sin, sin * beam_cos + cos * beam_sin),
+            origin: pose.to_world(L::from(self.mount.x), L::from(self.mount.y)),
+            direction: (pose.cos * cos - pose.sin * sin, pose.sin * cos + pose.cos * sin),
         }
     }
 }

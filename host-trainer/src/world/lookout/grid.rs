@@ -1,25 +1,21 @@
-//! Which cell and sector a pose lies in.
+//! Which cell a point lies in, and which of some equal parts of a turn an angle.
 
-use super::region::Region;
-use crate::world::shape::Rect;
-use controller_core::motion::Pose;
-use std::f64::consts::TAU;
+use crate::vector::Vector;
+use crate::world::shape::{Point, Rect};
+use std::f32::consts::TAU;
 
-/// Sectors of heading; a power of two.
-pub(super) const SECTORS: usize = 16;
+/// Side of a cell, metres.
+const SIDE: f32 = 0.125;
 
-/// Sectors per radian.
-const PER_RADIAN: f32 = SECTORS as f32 / std::f32::consts::TAU;
+/// Most cells; a larger world has larger ones.
+const MOST_CELLS: usize = 1 << 23;
 
-/// Adding 2²³ leaves the nearest integer in the low bits.
-const ROUND: f32 = 8_388_608.0;
+/// Adding and taking away 1.5·2²³ rounds an `f32` to the nearest integer.
+const ROUND: f32 = 12_582_912.0;
 
-/// The nearest integer; something larger than 2²² for negative numbers, for those above that,
-/// and for NaN. Faster than a conversion, which has to saturate.
-#[inline(always)]
-fn nearest_integer(value: f32) -> usize {
-    (value + ROUND).to_bits().wrapping_sub(ROUND.to_bits()) as usize
-}
+/// Directions lie this much further out than their part of a turn says, radians: many times what
+/// `sin_cos`, `wrap`, turning by a mount and the choice of a part round away.
+const TURN_MARGIN: f64 = 1.0e-5;
 
 /// Upright square cells around points that are whole sides from the origin.
 #[derive(Clone, Copy, Debug)]
@@ -27,37 +23,47 @@ pub(super) struct Grid {
     origin: [f32; 2],
     side: f32,
     per_metre: f32,
-    pub(super) columns: usize,
-    pub(super) rows: usize,
+    columns: usize,
+    rows: usize,
 }
 
 impl Grid {
-    /// Cells of this side over a rectangle, both metres; larger cells where there would be more
-    /// than `most` of them.
-    pub(super) fn new(low: [f32; 2], high: [f32; 2], side: f32, most: usize) -> Self {
+    /// Cells over a rectangle, metres.
+    pub(super) fn new(low: [f32; 2], high: [f32; 2]) -> Self {
         let size = [high[0] - low[0], high[1] - low[1]].map(|size| size.max(f32::MIN_POSITIVE));
         let count = |side: f32| size.map(|size| (size / side).ceil() + 1.0);
-        let mut side = side.max(f32::MIN_POSITIVE);
-        while count(side)[0] * count(side)[1] > most as f32 {
-            side *= 2.0;
+        let mut side = SIDE;
+        while count(side)[0] * count(side)[1] > MOST_CELLS as f32 {
+            side *= 1.25;
         }
         let [columns, rows] = count(side).map(|count| count as usize);
         Self { origin: low, side, per_metre: 1.0 / side, columns, rows }
     }
 
-    /// Column, row and sector; none outside of the grid.
-    #[inline(always)]
-    pub(super) fn locate(&self, pose: &Pose<f32>) -> Option<(usize, usize, usize)> {
-        let column = nearest_integer((pose.x - self.origin[0]) * self.per_metre);
-        let row = nearest_integer((pose.y - self.origin[1]) * self.per_metre);
-        let sector = nearest_integer(pose.heading * PER_RADIAN + SECTORS as f32);
-        // Two turns of sectors hold every heading within ±π, and no NaN.
-        let inside = column < self.columns && row < self.rows && sector < 2 * SECTORS;
-        inside.then_some((column, row, sector % SECTORS))
+    /// How many cells there are; their numbers go from 0, row by row.
+    pub(super) fn cells(&self) -> usize {
+        self.columns * self.rows
     }
 
-    /// Every pose that [`Self::locate`] puts in this cell, by sector, and a little more.
-    pub(super) fn regions(&self, column: usize, row: usize) -> [Region; SECTORS] {
+    /// From corner to corner of a cell, metres.
+    pub(super) fn diagonal(&self) -> f64 {
+        f64::from(self.side) * std::f64::consts::SQRT_2
+    }
+
+    /// The cell of each point; [`Self::cells`] for those outside of the grid.
+    #[inline(always)]
+    pub(super) fn locate<V: Vector>(&self, (x, y): (V, V)) -> V {
+        let per_metre = V::from(self.per_metre);
+        let (columns, rows) = (V::from(self.columns as f32), V::from(self.rows as f32));
+        let column = nearest_integer((x - V::from(self.origin[0])) * per_metre);
+        let row = nearest_integer((y - V::from(self.origin[1])) * per_metre);
+        let zero = V::from(0.0);
+        let is_inside = zero.le(column) & column.lt(columns) & zero.le(row) & row.lt(rows);
+        V::select(is_inside, row * columns + column, V::from(self.cells() as f32))
+    }
+
+    /// Every point that [`Self::locate`] puts in this cell, and a little more.
+    pub(super) fn rect(&self, cell: usize) -> Rect {
         let unit = f64::from(f32::EPSILON);
         let side = f64::from(self.side);
         let axis = |axis: usize, index: usize| {
@@ -68,12 +74,50 @@ impl Grid {
             let half = 0.5 * side + 4.0 * unit * (cells + 1.0) * side;
             (origin + cells * side - half, origin + cells * side + half)
         };
+        let (column, row) = (cell % self.columns, cell / self.columns);
         let ((x0, x1), (y0, y1)) = (axis(0, column), axis(1, row));
-        let sector_size = TAU / SECTORS as f64;
-        std::array::from_fn(|sector| Region {
-            cell: Rect { low: [x0, y0], high: [x1, y1] },
-            heading: sector as f64 * sector_size,
-            half_sector: sector_size * 0.5,
-        })
+        Rect { low: [x0, y0], high: [x1, y1] }
+    }
+}
+
+/// Which of `PARTS` equal parts of a turn each angle lies in; `PARTS` is a power of two, the
+/// angles are radians within ±10. Part 0 has angle 0 in its middle; NaN is anywhere.
+#[inline(always)]
+pub(super) fn part_of_turn<V: Vector, const PARTS: u32>(angle: V) -> V {
+    const { assert!(PARTS.is_power_of_two()) };
+    let parts = V::from(PARTS as f32);
+    let zero = V::from(0.0);
+    let turned = nearest_integer(angle * V::from(PARTS as f32 / TAU));
+    let part = turned - nearest_integer(turned * V::from(1.0 / PARTS as f32)) * parts;
+    let part = V::select(part.lt(zero), part + parts, part);
+    V::select(zero.le(part) & part.lt(parts), part, zero)
+}
+
+/// The nearest integer, for numbers up to 2²²; what is farther out comes out as some other
+/// number that far out, and NaN as NaN.
+#[inline(always)]
+fn nearest_integer<V: Vector>(value: V) -> V {
+    (value + V::from(ROUND)) - V::from(ROUND)
+}
+
+/// The directions of one of `parts` parts of a turn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arc {
+    /// Its middle, radians.
+    pub(super) middle: f64,
+    /// From its middle to its edge, radians.
+    pub(super) half: f64,
+    /// Its right and its left edge, unit vectors.
+    pub(super) edges: [Point; 2],
+}
+
+impl Arc {
+    /// Every direction that [`part_of_turn`] puts in this part, and a little more.
+    pub(super) fn new(part: usize, parts: u32) -> Self {
+        let whole = std::f64::consts::TAU;
+        let middle = part as f64 * whole / f64::from(parts);
+        let half = 0.5 * whole / f64::from(parts) + TURN_MARGIN;
+        let at = |angle: f64| [libm::cos(angle), libm::sin(angle)];
+        Self { middle, half, edges: [at(middle - half), at(middle + half)] }
     }
 }

@@ -15,6 +15,31 @@ use crate::world::shape::{Rect, Shape};
 /// Half a unit in the last place of 1.
 const UNIT: f64 = 1.0 / (1 << 24) as f64;
 
+/// A hit's distance is off by at most so many sizes, divided by the sine of its angle.
+const AHEAD: f64 = 16.0;
+
+/// Bounds for every obstacle of a world.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Ends of walls closer than this meet, metres.
+    pub(super) joint: f64,
+    /// A beam that passes a wall's end within this is not to be trusted, metres.
+    pub(super) slack: f64,
+}
+
+impl Limits {
+    /// For obstacles no larger than `largest` that are seen from cells no larger than `cell`, by
+    /// beams that reach `range`; the ends of walls that meet are at most `joint` apart. Metres.
+    pub(super) fn new(range: f32, largest: f64, cell: f64, joint: f32) -> Self {
+        let joint = f64::from(joint);
+        let ahead = AHEAD * UNIT * (1.01 * f64::from(range) + 4.0 * (largest + cell));
+        // Past the overlap of walls that meet, and so much that a beam which keeps clear of a
+        // wall's ends by it has a distance to that wall with an error of an eighth of its length.
+        let slack = 4.0 * ahead + 5.0 * joint;
+        Self { joint, slack }
+    }
+}
+
 /// Bounds for one obstacle seen from one region.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rounding {
@@ -30,7 +55,7 @@ impl Rounding {
     pub(super) fn new(shape: &Shape, from: &Rect) -> Self {
         let farthest = shape.farthest(from);
         let size = UNIT * (farthest + shape.length);
-        let (aside, ahead) = (6.0 * size, 16.0 * size);
+        let (aside, ahead) = (6.0 * size, AHEAD * size);
         let distance = if shape.is_wall() {
             // sin(angle) = distance from the wall's line / distance to the hit.
             match shape.side(from).abs() {

@@ -1,0 +1,526 @@
+//! What has been found out about each cell, in words of eight names.
+//!
+//! A name is a byte. In a small world it counts all obstacles, and every cell has its shelf. In a
+//! large one it counts those of its cell, which are listed beside the words, and cells get a
+//! shelf when a car turns up. Memory is asked for at once, but what no car
+//! visits is never touched, and so takes none.
+
+use super::beams::{self, Row};
+use super::cell::{BINS, SECTORS, Surroundings};
+use super::grid::Grid;
+use super::rounding::Limits;
+use crate::vector::{MOST_LANES, RowOfLane, Vector, ones};
+use crate::world::Obstacles;
+use controller_core::geometry::{Body, Segment};
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicU16, AtomicU32, AtomicU64, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+/// Names, lowest bits first; the highest bit says that they are all there are.
+type Word = u64;
+
+/// Bits of a name.
+const NAME: u32 = u8::BITS;
+
+/// Names in a word.
+const NAMES: usize = 7;
+
+/// The highest bit of a word.
+const ALL: Word = 1 << (Word::BITS - 1);
+
+/// The bit of a word that says: what is left out stands behind walls that meet, and a beam that
+/// passes their ends too closely cannot be sure to meet one of them.
+const JOINT: Word = ALL >> 1;
+
+/// Names of obstacles; name 0 is that of nothing.
+const MOST: usize = u8::MAX as usize;
+
+/// Most cells that are remembered in a large world; beyond, all obstacles are asked.
+const MOST_SHELVES: usize = 1 << 16;
+
+/// Words of every cell.
+#[derive(Debug)]
+pub(super) struct Shelf {
+    surroundings: Surroundings,
+    has_discs: bool,
+    /// Obstacles as beams meet them, by place, after one that no beam meets; as many as there are
+    /// names at least.
+    edges: Box<[Row]>,
+    /// The same as bodies meet them.
+    faces: Box<[Row]>,
+    /// What a beam can meet, by shelf and bin: where among the words; 0 where nobody has been yet.
+    seen: Box<[AtomicU16]>,
+    /// What the body can touch, by shelf and sector, likewise.
+    near: Box<[AtomicU16]>,
+    words: Words,
+    /// Lists that do not fit into a word, by shelf; set once the shelf's words are written.
+    lists: Box<[OnceLock<Lists>]>,
+    large: Option<Large>,
+}
+
+/// Every word once. Few are different, so the shelves hold short numbers.
+#[derive(Debug)]
+struct Words {
+    /// The first is 0: it says nothing.
+    words: Box<[AtomicU64]>,
+    numbers: Mutex<HashMap<Word, u16>>,
+}
+
+/// What a large world has besides.
+#[derive(Debug)]
+struct Large {
+    /// Each cell's shelf; 0 where nobody has been yet.
+    shelves: Box<[AtomicU32]>,
+    /// Shelves given out.
+    taken: AtomicU32,
+    /// What the names of a shelf mean.
+    places: Box<[AtomicU32]>,
+}
+
+/// Lists of places that do not fit into a word, and whether they rely on walls that meet.
+type Lists = Box<[(Box<[u32]>, bool)]>;
+
+/// What is asked.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Question {
+    /// What a beam in this bin can meet.
+    Seen(u32),
+    /// What a body in this sector can touch.
+    Near(u32),
+}
+
+/// How much a lookout has found out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Survey {
+    /// Cells that a car has visited.
+    pub cells: usize,
+    /// Memory that the visited cells take, bytes.
+    pub bytes: usize,
+    /// Obstacles that a beam may meet first, for each visited cell and each direction, ascending.
+    pub seen: Vec<usize>,
+    /// Obstacles within the body's reach, for each visited cell and each heading, ascending.
+    pub near: Vec<usize>,
+}
+
+/// Questions of `N` times several robots, and the words that answer them.
+///
+/// Everything is written in place: a copy would have to wait for what has just been written.
+pub(super) struct Asked<const N: usize> {
+    words: [[Word; MOST_LANES]; N],
+    /// The shelves that were asked, in a large world.
+    shelves: [[u32; MOST_LANES]; N],
+    /// What is set in any lane's word.
+    any: [Word; N],
+    /// What is set in all of them.
+    all: [Word; N],
+}
+
+impl Shelf {
+    pub(super) fn new(obstacles: &Obstacles, grid: &Grid, range: f32, body: Body<f32>) -> Self {
+        let (walls, discs) = (obstacles.walls(), obstacles.discs());
+        let count = walls.len() + discs.len();
+        let limits =
+            Limits::new(range, obstacles.largest(), grid.diagonal(), obstacles.joint(range));
+        let table = |nothing: Row, wall: fn(&Segment<f32>) -> Row| {
+            let mut rows = vec![nothing];
+            rows.extend(walls.iter().map(wall));
+            rows.extend(discs.iter().map(beams::disc));
+            // So that every name has a row.
+            rows.resize(rows.len().max(usize::from(u8::MAX) + 1), nothing);
+            rows.into()
+        };
+        let is_large = count > MOST || grid.cells() >= MOST_SHELVES;
+        let large = is_large.then(|| Large {
+            shelves: bytemuck::zeroed_slice_box(grid.cells() + 1),
+            taken: AtomicU32::new(1),
+            places: bytemuck::zeroed_slice_box(MOST_SHELVES << NAME),
+        });
+        let shelves = if large.is_some() { MOST_SHELVES } else { grid.cells() + 1 };
+        Self {
+            surroundings: Surroundings::new(range, body, limits),
+            has_discs: !discs.is_empty(),
+            edges: table(beams::NOTHING, beams::edge),
+            faces: table(beams::NOTHING_NEAR, beams::face),
+            seen: bytemuck::zeroed_slice_box(shelves * BINS as usize),
+            near: bytemuck::zeroed_slice_box(shelves * SECTORS as usize),
+            words: Words::new(),
+            lists: (0..shelves).map(|_| OnceLock::new()).collect(),
+            large,
+        }
+    }
+
+    /// A beam that passes a wall's end within this is not to be trusted, metres.
+    pub(super) fn slack(&self) -> f32 {
+        (self.surroundings.limits.slack * 1.25) as f32
+    }
+
+    #[inline(always)]
+    pub(super) fn has_discs(&self) -> bool {
+        self.has_discs
+    }
+
+    /// Asks what beams in these bins can meet.
+    #[inline(always)]
+    pub(super) fn ask_seen<V: Vector, const N: usize>(
+        &self,
+        asked: &mut Asked<N>,
+        question: usize,
+        shelves: V,
+        bins: V,
+    ) {
+        self.ask(asked, question, &self.seen, shelves, bins, BINS);
+    }
+
+    /// Asks what bodies in these sectors can touch.
+    #[inline(always)]
+    pub(super) fn ask_near<V: Vector, const N: usize>(
+        &self,
+        asked: &mut Asked<N>,
+        question: usize,
+        shelves: V,
+        sectors: V,
+    ) {
+        self.ask(asked, question, &self.near, shelves, sectors, SECTORS);
+    }
+
+    #[inline(always)]
+    fn ask<V: Vector, const N: usize>(
+        &self,
+        asked: &mut Asked<N>,
+        question: usize,
+        numbers: &[AtomicU16],
+        shelves: V,
+        part: V,
+        parts: u32,
+    ) {
+        let at = (shelves * V::from(parts as f32) + part).places();
+        if self.large.is_some() {
+            asked.shelves[question] = shelves.places();
+        }
+        let words = self.words.all();
+        let slots = &mut asked.words[question];
+        let (mut any, mut all) = (0, Word::MAX);
+        for lane in 0..V::WIDTH {
+            // Whoever sees a number also sees what it stands for.
+            let number = numbers[at[lane] as usize].load(Ordering::Acquire);
+            let word = words[usize::from(number)].load(Ordering::Relaxed);
+            slots[lane] = word;
+            any |= word;
+            all &= word;
+        }
+        (asked.any[question], asked.all[question]) = (any, all);
+    }
+
+    /// The shelves of these cells.
+    #[inline(always)]
+    pub(super) fn shelves<V: Vector>(&self, cells: V) -> V {
+        let Some(large) = &self.large else { return cells };
+        let cells = cells.places();
+        let mut shelves = V::from(0.0);
+        for (shelf, cell) in shelves.lanes_mut().iter_mut().zip(cells) {
+            *shelf = large.shelves[cell as usize].load(Ordering::Relaxed) as f32;
+        }
+        shelves
+    }
+
+    /// The obstacles of each word's name in this round, as beams meet them.
+    #[inline(always)]
+    pub(super) fn edges<V: Vector, const N: usize>(
+        &self,
+        asked: &Asked<N>,
+        question: usize,
+        round: usize,
+    ) -> [V; 4] {
+        self.rows(&self.edges, asked, question, round)
+    }
+
+    /// The same as bodies meet them.
+    #[inline(always)]
+    pub(super) fn faces<V: Vector, const N: usize>(
+        &self,
+        asked: &Asked<N>,
+        question: usize,
+        round: usize,
+    ) -> [V; 4] {
+        self.rows(&self.faces, asked, question, round)
+    }
+
+    #[inline(always)]
+    fn rows<V: Vector, const N: usize>(
+        &self,
+        table: &[Row],
+        asked: &Asked<N>,
+        question: usize,
+        round: usize,
+    ) -> [V; 4] {
+        let words = &asked.words[question];
+        match &self.large {
+            None => {
+                let table = table.first_chunk().expect("a row for every name");
+                V::rows(ByName { table, words, round })
+            }
+            Some(Large { places, .. }) => {
+                let shelves = &asked.shelves[question];
+                V::rows(ByPlace { table, places, words, shelves, round })
+            }
+        }
+    }
+
+    /// Calls `f` with every obstacle that is asked for, after looking around from its cell if nobody
+    /// has; false where there is no such cell, or no room to remember it.
+    pub(super) fn each(
+        &self,
+        grid: &Grid,
+        obstacles: &Obstacles,
+        cell: u32,
+        question: Question,
+        mut f: impl FnMut(&Row),
+    ) -> Option<bool> {
+        let shelf = self.shelf(grid, cell)?;
+        let lists = self.lists[shelf as usize]
+            .get_or_init(|| self.look_around(grid, obstacles, cell, shelf));
+        let (numbers, table, at) = match question {
+            Question::Seen(bin) => (&self.seen, &self.edges, shelf * BINS + bin),
+            Question::Near(sector) => (&self.near, &self.faces, shelf * SECTORS + sector),
+        };
+        let number = numbers[at as usize].load(Ordering::Relaxed);
+        let word = self.words.all()[usize::from(number)].load(Ordering::Relaxed);
+        if word & ALL == 0 {
+            let (list, joint) = lists.get((word as usize).checked_sub(1)?)?;
+            list.iter().for_each(|place| f(&table[*place as usize + 1]));
+            return Some(*joint);
+        }
+        let names = word.to_le_bytes();
+        for name in names[..NAMES].iter().take_while(|name| **name != 0) {
+            f(&table[self.row(shelf, *name)]);
+        }
+        Some(word & JOINT != 0)
+    }
+
+    /// Where in the tables a name's obstacle is.
+    fn row(&self, shelf: u32, name: u8) -> usize {
+        match &self.large {
+            None => usize::from(name),
+            Some(large) => large.places[place(shelf, name)].load(Ordering::Relaxed) as usize,
+        }
+    }
+
+    /// The shelf of a cell; takes one if it has none yet.
+    fn shelf(&self, grid: &Grid, cell: u32) -> Option<u32> {
+        if cell as usize >= grid.cells() {
+            return None;
+        }
+        let Some(large) = &self.large else { return Some(cell) };
+        let mine = &large.shelves[cell as usize];
+        let known = mine.load(Ordering::Relaxed);
+        if known != 0 {
+            return Some(known);
+        }
+        if large.taken.load(Ordering::Relaxed) as usize >= MOST_SHELVES {
+            return None;
+        }
+        let new = large.taken.fetch_add(1, Ordering::Relaxed);
+        if new as usize >= MOST_SHELVES {
+            return None;
+        }
+        // Another thread may have been faster; then this shelf stays empty.
+        match mine.compare_exchange(0, new, Ordering::Relaxed, Ordering::Relaxed) {
+            Ok(_) => Some(new),
+            Err(theirs) => Some(theirs),
+        }
+    }
+
+    /// Writes a cell's words; returns its lists that are too long for one.
+    fn look_around(&self, grid: &Grid, obstacles: &Obstacles, cell: u32, shelf: u32) -> Lists {
+        let rect = grid.rect(cell as usize);
+        let mut long: Vec<(Box<[u32]>, bool)> = Vec::new();
+        let mut named: Vec<u32> = Vec::new();
+        let mut write = |at: u32, is_near: bool, places: &[u32], joint: bool| {
+            let names = places.iter().map(|place| self.name(shelf, *place, &mut named));
+            let flags = if joint { ALL | JOINT } else { ALL };
+            let all = (places.len() <= NAMES).then_some(flags);
+            let word = names
+                .zip(0..)
+                .fold(all, |word, (name, n)| Some(word? | Word::from(name?) << (n * NAME)));
+            let word = word.unwrap_or_else(|| {
+                long.push((places.into(), joint));
+                long.len() as Word
+            });
+            // Without a number, all obstacles are asked.
+            let number = self.words.number(word).unwrap_or(0);
+            let numbers = if is_near { &self.near } else { &self.seen };
+            numbers[at as usize].store(number, Ordering::Release);
+        };
+        self.surroundings.seen(obstacles, &rect, |bin, places, joint| {
+            write(shelf * BINS + bin, false, places, joint);
+        });
+        self.surroundings.near(obstacles, &rect, |sector, places| {
+            write(shelf * SECTORS + sector, true, places, false);
+        });
+        long.into()
+    }
+
+    /// The name of the obstacle in this place; none if there are too many.
+    fn name(&self, shelf: u32, obstacle: u32, named: &mut Vec<u32>) -> Option<u8> {
+        let Some(large) = &self.large else { return u8::try_from(obstacle + 1).ok() };
+        let known = named.iter().position(|known| *known == obstacle);
+        let index = known.unwrap_or_else(|| {
+            named.push(obstacle);
+            named.len() - 1
+        });
+        if index >= MOST {
+            return None;
+        }
+        let name = index as u8 + 1;
+        large.places[place(shelf, name)].store(obstacle + 1, Ordering::Relaxed);
+        Some(name)
+    }
+
+    /// The cells visited so far.
+    pub(super) fn survey(&self, grid: &Grid, obstacles: &Obstacles) -> Survey {
+        let is_visited = |cell: &u32| {
+            let shelf = match &self.large {
+                None => *cell,
+                Some(large) => large.shelves[*cell as usize].load(Ordering::Relaxed),
+            };
+            self.lists[shelf as usize].get().is_some()
+        };
+        let cells: Vec<u32> = (0..grid.cells() as u32).filter(is_visited).collect();
+        let counts = |parts: u32, question: fn(u32) -> Question| {
+            let mut counts = Vec::new();
+            for cell in &cells {
+                for part in 0..parts {
+                    let mut count = 0;
+                    self.each(grid, obstacles, *cell, question(part), |_| count += 1);
+                    counts.push(count);
+                }
+            }
+            counts.sort_unstable();
+            counts
+        };
+        let names = if self.large.is_some() { size_of::<u32>() << NAME } else { 0 };
+        let words = (BINS + SECTORS) as usize * size_of::<u16>() + names;
+        let lists = self.lists.iter().filter_map(OnceLock::get).flatten();
+        let long: usize = lists.map(|(list, _)| size_of_val(&**list)).sum();
+        Survey {
+            cells: cells.len(),
+            bytes: cells.len() * words + long,
+            seen: counts(BINS, Question::Seen),
+            near: counts(SECTORS, Question::Near),
+        }
+    }
+}
+
+impl Words {
+    /// Numbers of words.
+    const MOST: usize = 1 << u16::BITS;
+
+    fn new() -> Self {
+        Self { words: bytemuck::zeroed_slice_box(Self::MOST), numbers: Mutex::default() }
+    }
+
+    /// Every word, by number.
+    #[inline(always)]
+    fn all(&self) -> &[AtomicU64; Self::MOST] {
+        self.words.first_chunk().expect("a word for every number")
+    }
+
+    /// The number of this word; none if there are too many.
+    fn number(&self, word: Word) -> Option<u16> {
+        let mut numbers = self.numbers.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = numbers.get(&word) {
+            return Some(*known);
+        }
+        let number = u16::try_from(numbers.len() + 1).ok()?;
+        self.words[usize::from(number)].store(word, Ordering::Relaxed);
+        numbers.insert(word, number);
+        Some(number)
+    }
+}
+
+fn place(shelf: u32, name: u8) -> usize {
+    (shelf as usize) << NAME | usize::from(name)
+}
+
+impl<const N: usize> Asked<N> {
+    /// Most rounds.
+    pub(super) const ROUNDS: usize = NAMES;
+
+    /// No questions yet.
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        const { assert!(N <= u32::BITS as usize) };
+        Self {
+            words: [[0; MOST_LANES]; N],
+            shelves: [[0; MOST_LANES]; N],
+            any: [0; N],
+            all: [Word::MAX; N],
+        }
+    }
+
+    /// The questions with a name for this round in any lane.
+    #[inline(always)]
+    pub(super) fn with_name(&self, round: usize) -> impl Iterator<Item = usize> + use<N> {
+        let mut questions = 0;
+        for (number, any) in self.any.iter().enumerate() {
+            let name = (*any >> (round as u32 * NAME)) as u8;
+            questions |= u32::from(name != 0) << number;
+        }
+        ones(questions)
+    }
+
+    /// Lanes whose word does not have it all, as bits.
+    #[inline(always)]
+    pub(super) fn unknown<V: Vector>(&self, question: usize) -> u32 {
+        if self.all[question] & ALL != 0 { 0 } else { self.without::<V>(question, ALL) }
+    }
+
+    /// Those and the lanes whose word relies on walls that meet.
+    #[inline(always)]
+    pub(super) fn unsure<V: Vector>(&self, question: usize) -> u32 {
+        self.without::<V>(question, ALL) | !self.without::<V>(question, JOINT)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn without<V: Vector>(&self, question: usize, flag: Word) -> u32 {
+        let mut lanes = 0;
+        for (lane, word) in self.words[question][..V::WIDTH].iter().enumerate() {
+            lanes |= u32::from(*word & flag == 0) << lane;
+        }
+        lanes
+    }
+}
+
+/// Rows of a small world.
+struct ByName<'a> {
+    table: &'a [Row; 1 << NAME],
+    words: &'a [Word; MOST_LANES],
+    round: usize,
+}
+
+impl RowOfLane for ByName<'_> {
+    #[inline(always)]
+    fn row(&self, lane: usize) -> &Row {
+        let words: &[u8] = bytemuck::must_cast_slice(self.words);
+        &self.table[usize::from(words[lane * 8 + self.round])]
+    }
+}
+
+/// Rows of a large world.
+struct ByPlace<'a> {
+    table: &'a [Row],
+    places: &'a [AtomicU32],
+    words: &'a [Word; MOST_LANES],
+    shelves: &'a [u32; MOST_LANES],
+    round: usize,
+}
+
+impl RowOfLane for ByPlace<'_> {
+    #[inline(always)]
+    fn row(&self, lane: usize) -> &Row {
+        let name = (self.words[lane] >> (self.round as u32 * NAME)) as u8;
+        let place = place(self.shelves[lane], name);
+        &self.table[self.places[place].load(Ordering::Relaxed) as usize]
+    }
+}
