@@ -1,0 +1,123 @@
+//! The parts of a step, each by itself, so that they can be timed and counted.
+//!
+//! What they work on is what they meet in the workload's drives; how, is what the wide engine
+//! does.
+
+use super::workload;
+use crate::problem::{Problem, training_drive};
+use crate::seed::RunSeed;
+use crate::vector::{Instructions, Kernel, Neurons, Slots, Vector, Weight};
+use crate::wide::SLOTS;
+use crate::world::Lookout;
+use controller_core::activation::Rational;
+use controller_core::motion::Pose;
+use controller_core::network::{Elman, Network, State};
+use controller_core::observation::{BEAMS, INPUTS};
+use std::hint::black_box;
+
+/// Neurons in each hidden layer of the workload's network.
+const HIDDEN: usize = 12;
+
+const WEIGHTS: usize = Network::<Elman, f32, INPUTS, HIDDEN, 1>::topology(true).weights();
+
+/// Where the workload's cars stand: `steps` control periods of the first `individuals`, all cars
+/// at one time, then all at the next. A drive that has ended begins again.
+pub fn poses(problem: &Problem, individuals: usize, steps: usize) -> Vec<Pose<f32>> {
+    let genomes = workload::population(individuals);
+    let mut traces = Vec::new();
+    for genome in genomes.chunks(problem.topology().weights()) {
+        let mut brain = problem.brain(genome).expect("the workload's topology");
+        for pair in workload::pairs(problem) {
+            let random = training_drive(RunSeed(1), 0, 0);
+            traces.push(problem.drive_traced(brain.as_mut(), pair, random).1.steps);
+        }
+    }
+    let at = |step: usize| traces.iter().map(move |trace| trace[step % trace.len()].pose);
+    (0..steps).flat_map(at).collect()
+}
+
+/// The beams of cars at these poses.
+pub fn look(lookout: &Lookout, poses: &[Pose<f32>], set: Instructions) {
+    struct Look<'a>(&'a Lookout, &'a [Pose<f32>]);
+    impl Kernel for Look<'_> {
+        type Output = ();
+        #[inline(always)]
+        fn run<V: Vector>(self) {
+            for pose in self.1 {
+                black_box(self.0.fan::<V::Eight>(black_box(pose)));
+            }
+        }
+    }
+    set.run(Look(lookout, poses));
+}
+
+/// How far the beams of a car at this pose reach, metres.
+pub fn distances(lookout: &Lookout, pose: &Pose<f32>, set: Instructions) -> [f32; BEAMS] {
+    struct Look<'a>(&'a Lookout, &'a Pose<f32>);
+    impl Kernel for Look<'_> {
+        type Output = [f32; BEAMS];
+        #[inline(always)]
+        fn run<V: Vector>(self) -> [f32; BEAMS] {
+            self.0.fan::<V::Eight>(self.1)
+        }
+    }
+    set.run(Look(lookout, pose))
+}
+
+/// The contacts of cars at these poses.
+pub fn touch(lookout: &Lookout, poses: &[Pose<f32>]) {
+    for pose in poses {
+        black_box(lookout.touches(black_box(pose)));
+    }
+}
+
+/// Steps of one network.
+///
+/// # Panics
+///
+/// If the genome is not of the workload's topology.
+pub fn step_alone(genome: &[f32], steps: usize) {
+    let network = Network::<Elman, f32, INPUTS, HIDDEN, 1>::new(genome, true);
+    let network = network.expect("the workload's topology");
+    let mut state = State::reset();
+    let mut inputs = [0.5; INPUTS];
+    for _ in 0..steps {
+        inputs[0] = network.step_alone(Rational, &mut state, black_box(&inputs))[0];
+    }
+    black_box(inputs);
+}
+
+/// Steps of as many networks as these instructions have lanes, each for [`SLOTS`] cars.
+///
+/// # Panics
+///
+/// If the genomes are too few, or not of the workload's topology.
+pub fn step_together(genomes: &[f32], steps: usize, set: Instructions) {
+    struct Together<'a>(&'a [f32], usize);
+    impl Kernel for Together<'_> {
+        type Output = ();
+        #[inline(always)]
+        fn run<V: Vector>(self) {
+            let mut weights = vec![Weight(V::from(0.0)); WEIGHTS];
+            for (lane, genome) in self.0.chunks(WEIGHTS).enumerate() {
+                for (weight, gene) in weights.iter_mut().zip(genome) {
+                    weight.0.lanes_mut()[lane] = *gene;
+                }
+            }
+            let network = Network::<Elman, Weight<V>, INPUTS, HIDDEN, 1>::new(&weights, true);
+            let network = network.expect("the workload's topology");
+            let mut state = State::<Slots<V, SLOTS>, HIDDEN>::reset();
+            let mut inputs = [Slots::<V, SLOTS>::from(0.5); INPUTS];
+            for _ in 0..self.1 {
+                let (state, seen) = (black_box(&mut state), black_box(&inputs));
+                let [answer] = match V::NEURONS {
+                    Neurons::Two => network.step_by::<2, _>(Rational, state, seen),
+                    Neurons::Four => network.step_by::<4, _>(Rational, state, seen),
+                };
+                inputs[0] = answer;
+            }
+            black_box(&inputs);
+        }
+    }
+    set.run(Together(&genomes[..WEIGHTS * set.width()], steps));
+}
