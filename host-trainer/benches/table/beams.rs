@@ -142,7 +142,8 @@ fn agree(lookout: &Lookout, reference: &Reference, fan: &Fan, poses: &[Pose<f32>
             let theirs = reference.distance(&ray, fan.range());
             beams += 1;
             // Both may be infinite.
-            differing += usize::from(ours != theirs && !((ours - theirs).abs() <= TOLERANCE));
+            let same = ours == theirs || (ours - theirs).abs() <= TOLERANCE;
+            differing += usize::from(!same);
         }
     }
     assert!(differing * 500 <= beams, "{differing} of {beams} beams end elsewhere than parry2d's");
