@@ -1,6 +1,6 @@
 //! How much arithmetic one step is: counted by a number that counts what is done with it.
 //!
-//! All arithmetic of a step is generic over [`Lane`]. [`Counting`] is a lane like any other,
+//! All arithmetic of a step is generic over [`Lane`]. `Counting` is a lane like any other,
 //! and so the very functions that drive a car say what they cost, whatever they are compiled to.
 
 use crate::problem::Problem;
