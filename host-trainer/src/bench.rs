@@ -9,7 +9,13 @@
 //! | [`workload`] | the scenario, and the population that every simulator starts from |
 //! | [`golden`] | 256 single steps that another program computed in 64 bits |
 //! | [`speed`] | steps per second, and the time of a paper-size run |
+//! | [`reference`] | the same steps with parry2d's beams and contacts |
+//! | [`parts`] | beams, contacts and networks, each by itself |
+//! | [`operations`] | how much arithmetic a step is |
 
 pub mod golden;
+pub mod operations;
+pub mod parts;
+pub mod reference;
 pub mod speed;
 pub mod workload;

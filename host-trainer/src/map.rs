@@ -85,6 +85,11 @@ pub fn load(yaml: &Path) -> Result<OccupancyMap, MapError> {
     assemble(canvas, description, yaml)
 }
 
+/// The image file that a map's YAML names; the image itself is not read.
+pub fn image(yaml: &Path) -> Result<PathBuf, MapError> {
+    Ok(Description::read(yaml)?.image)
+}
+
 /// The contents of a file, on disk or inside this program.
 trait Contents: Read + Seek {}
 

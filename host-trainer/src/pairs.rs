@@ -14,6 +14,7 @@ use controller_core::geometry::Body;
 use controller_core::motion::Pose;
 use std::f32::consts::PI;
 use std::fmt;
+use std::sync::Arc;
 
 /// Draws before giving up on one pair.
 const TRIES: u32 = 20_000;
@@ -22,7 +23,7 @@ const TRIES: u32 = 20_000;
 #[derive(Debug)]
 pub struct PairSampler<'a> {
     world: &'a World,
-    space: FreeSpace,
+    space: Arc<FreeSpace>,
     body: Body<f32>,
     min_distance: f32,
 }
@@ -50,12 +51,23 @@ impl fmt::Display for NoPair {
 impl std::error::Error for NoPair {}
 
 impl<'a> PairSampler<'a> {
-    /// A sampler for this scenario's world and car.
+    /// A sampler for this scenario's world and car. Maps the free space, which takes as long as
+    /// thousands of draws: a [`Problem`](crate::problem::Problem) has a sampler that does so once.
     pub fn new(world: &'a World, scenario: &Scenario) -> Self {
+        Self::within(world, scenario, Arc::new(Self::space_of(world, scenario)))
+    }
+
+    /// The same within a free space that is mapped already, by [`Self::space_of`].
+    pub fn within(world: &'a World, scenario: &Scenario, space: Arc<FreeSpace>) -> Self {
+        let body = body_of(&scenario.vehicle);
+        Self { world, space, body, min_distance: scenario.pairs.min_distance }
+    }
+
+    /// Where this scenario's car can be.
+    pub fn space_of(world: &World, scenario: &Scenario) -> FreeSpace {
         let body = body_of(&scenario.vehicle);
         let half_length = (body.front - body.rear) * 0.5;
-        let space = FreeSpace::new(world, body.half_width.min(half_length));
-        Self { world, space, body, min_distance: scenario.pairs.min_distance }
+        FreeSpace::new(world, body.half_width.min(half_length))
     }
 
     /// The pairs that training drives in this generation.

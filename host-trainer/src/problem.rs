@@ -4,8 +4,10 @@ use crate::brain::{self, Brain, NotBuiltIn};
 use crate::car::{CarModel, scaling_of};
 use crate::episode::{self, Outcome, Trace};
 use crate::failure::Failure;
+use crate::pairs::PairSampler;
 use crate::scenario::{Pair, Scenario, StepLength, words_of};
 use crate::seed::{Purpose, RunSeed, Stream};
+use crate::world::free_space::FreeSpace;
 use crate::world::{Lookout, World};
 use controller_core::activation::ActivationKind;
 use controller_core::blob::Header;
@@ -14,6 +16,7 @@ use controller_core::network::Topology;
 use controller_core::observation::{BEAMS, BeamMount, INPUTS};
 use serde::Serialize;
 use std::fmt;
+use std::sync::{Arc, OnceLock};
 
 /// A scenario, built.
 #[derive(Debug)]
@@ -24,6 +27,7 @@ pub struct Problem {
     pub world: World,
     model: CarModel,
     lookout: Lookout,
+    space: OnceLock<Arc<FreeSpace>>,
     scaling: Scaling,
     topology: Topology,
     activation: ActivationKind,
@@ -40,6 +44,7 @@ impl Problem {
         let model = CarModel::new(&scenario);
         Ok(Self {
             lookout: model.lookout(&world),
+            space: OnceLock::new(),
             world,
             model,
             scaling: scaling_of(&scenario),
@@ -57,6 +62,13 @@ impl Problem {
     /// How the network's inputs and outputs relate to the car.
     pub fn scaling(&self) -> Scaling {
         self.scaling
+    }
+
+    /// Draws pairs. The free space is mapped at the first call.
+    pub fn sampler(&self) -> PairSampler<'_> {
+        let Self { world, scenario, .. } = self;
+        let map = || Arc::new(PairSampler::space_of(world, scenario));
+        PairSampler::within(world, scenario, Arc::clone(self.space.get_or_init(map)))
     }
 
     /// Everything about the car that does not change during a drive.

@@ -99,7 +99,7 @@ impl<'a> Training<'a> {
         };
         let search = Ga::new(space, spec.ga, seed)
             .map_err(|error| Failure::bad_input(format!("training: {error}")))?;
-        let sampler = PairSampler::new(&problem.world, &problem.scenario);
+        let sampler = problem.sampler();
         let search: Box<dyn Optimizer> = Box::new(search);
         let run = run_id(&problem.scenario, seed);
         Ok(Self { problem, run, seed, sampler, search, history: Vec::new(), best: None })

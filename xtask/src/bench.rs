@@ -1,117 +1,119 @@
 //! `cargo xtask bench`: how fast the simulation is on this machine.
+//!
+//! Times are for people, who know what else their machine does: nothing fails over them. Counts of
+//! instructions are exact, and are held to bounds.
 
-use std::process::Command;
+mod callgrind;
+mod counts;
+
+use std::process::{Command, Stdio};
 
 use crate::failure::Failure;
 use crate::options::Options;
+use crate::page::{self, Place};
 use crate::process;
+use crate::tools;
+use counts::Counts;
 
-/// Vector instructions that the simulator knows, narrowest first.
-const SETS: [&str; 4] = ["scalar", "sse2", "avx2", "avx512"];
+/// Where the table of counts stands.
+const COUNTS: Place = Place { page: "docs/performance.md", command: "bench --counted" };
 
-/// What one call of `evosteer bench` says.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Speed {
-    /// Million control periods per second, all cars side by side.
-    together: f64,
-    /// The same with each car alone, on one thread.
-    alone: f64,
-    /// Seconds of a paper-size run, where it was asked for.
-    run: Option<f64>,
-}
+/// Where the table of times stands; written anew on request, never compared.
+const TIMES: Place = Place { page: "docs/performance.md", command: "bench" };
 
-/// Measures every width this CPU has on one thread and on two, a paper-size run on all cores, and
-/// what a beam costs against the number of obstacles, parry2d beside it.
-pub(crate) fn run(_: &Options) -> Result<(), Failure> {
-    process::run(process::cargo().args(["build", "--release", "--package", "host-trainer"]))?;
-    let mut rows =
-        vec![["instructions", "threads", "million steps/s", "to one by one"].map(String::from)];
-    for set in SETS {
-        for threads in ["1", "2"] {
-            let options = ["--short", "--instructions", set, "--threads", threads];
-            let Some(speed) = measure(&options)? else {
-                rows.push([set.into(), threads.into(), "not on this CPU".into(), String::new()]);
-                continue;
-            };
-            let ratio = format!("{:.1}", speed.together / speed.alone);
-            rows.push([set.into(), threads.into(), format!("{:.2}", speed.together), ratio]);
-        }
+/// Vectors that valgrind knows, narrowest first.
+const SETS: [&str; 2] = ["sse2", "avx2"];
+
+/// How far a count may be from the one in the table, of it: what allocators, and the C library's own
+/// choice of instructions, make of a count.
+const MARGIN: f64 = 0.02;
+
+/// Prints the table of times, or counts instructions.
+pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+    if options.counted {
+        return match options.json {
+            false => counted(),
+            true => Err(Failure::usage(
+                "bench: --counted prints no JSON; its table is in the documentation",
+            )),
+        };
     }
-    print!("{}", table(&rows));
-    if let Some(Speed { run: Some(seconds), together, .. }) = measure(&[])? {
-        println!("all cores: {together:.2} million steps/s, a paper-size run in {seconds:.2} s");
+    let mut command = process::cargo();
+    command.args(["bench", "--quiet", "--package", "host-trainer", "--bench", "table"]);
+    if options.json {
+        command.args(["--", "--json"]);
     }
-    process::run(process::cargo().args(["bench", "-p", "host-trainer", "--bench", "beams"]))
-}
-
-/// Calls `evosteer bench`; none if this CPU lacks the instructions.
-fn measure(options: &[&str]) -> Result<Option<Speed>, Failure> {
-    let program = process::root().join("target/release/evosteer");
-    let mut command = Command::new(program);
-    command.current_dir(process::root()).args(["bench", "--json"]).args(options);
     let output = command
+        .stdin(Stdio::null())
+        .stderr(Stdio::inherit())
         .output()
-        .map_err(|error| Failure::failed(format!("evosteer bench did not start: {error}")))?;
-    let said = String::from_utf8_lossy(&output.stderr);
-    if output.status.code() == Some(2) && said.contains("expected what this CPU has") {
+        .map_err(|error| Failure::failed(format!("cargo bench did not start: {error}")))?;
+    if !output.status.success() {
+        return Err(Failure::failed(format!("cargo bench ended with {}", output.status)));
+    }
+    let table = String::from_utf8_lossy(&output.stdout);
+    print!("{table}");
+    if options.json { Ok(()) } else { page::bless(&TIMES, &cpu(), &table) }
+}
+
+/// The CPU's name, as far as this system tells it.
+fn cpu() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let name = text.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
+    name.map_or("an unknown CPU", |(_, name)| name.trim()).to_owned()
+}
+
+/// Counts the instructions of a step, and compares them with the table in the documentation.
+pub(crate) fn counted() -> Result<(), Failure> {
+    tools::need_valgrind()?;
+    process::run(process::cargo().args([
+        "build",
+        "--quiet",
+        "--release",
+        "--package",
+        "host-trainer",
+        "--example",
+        "counted",
+    ]))?;
+    let counts: Option<Vec<Counts>> =
+        SETS.iter().map(|set| count(set)).collect::<Result<_, _>>()?;
+    let Some(counts) = counts else {
+        eprintln!("xtask: this CPU has no AVX2: instructions are not compared");
+        return Ok(());
+    };
+    let table = counts::table(&counts);
+    print!("{table}");
+    let compiler =
+        process::output(Command::new("rustc").arg("--version").current_dir(process::root()))
+            .ok_or_else(|| Failure::missing("rustc", "https://rustup.rs"))?;
+    page::keep_within(&COUNTS, &compiler, &table, MARGIN)
+}
+
+/// Runs the counting program once; none if this CPU lacks the instructions.
+fn count(set: &'static str) -> Result<Option<Counts>, Failure> {
+    let file = process::root().join(format!("target/counted-{set}.callgrind"));
+    let program = process::root().join("target/release/examples/counted");
+    let mut command = Command::new("valgrind");
+    command.args(["--quiet", "--tool=callgrind", "--dump-line=no"]);
+    command.arg(format!("--callgrind-out-file={}", file.display())).arg(program);
+    let output = command
+        .env("EVOSTEER_INSTRUCTIONS", set)
+        .output()
+        .map_err(|error| Failure::failed(format!("valgrind did not start: {error}")))?;
+    if output.status.code() == Some(2) {
         return Ok(None);
     }
     if !output.status.success() {
-        return Err(Failure::failed(format!(
-            "evosteer bench ended with {}: {said}",
-            output.status
-        )));
+        let said = String::from_utf8_lossy(&output.stderr);
+        return Err(Failure::failed(format!("valgrind ended with {}: {said}", output.status)));
     }
-    let text = String::from_utf8_lossy(&output.stdout);
-    let number = |key: &str| {
-        number(&text, key)
-            .ok_or_else(|| Failure::failed(format!("evosteer bench printed no `{key}`: {text}")))
-    };
-    Ok(Some(Speed {
-        together: number("steps_per_second")? * 1e-6,
-        alone: number("steps_per_second_alone")? * 1e-6,
-        run: self::number(&text, "paper_run_seconds"),
-    }))
-}
-
-/// The number of a key in a flat JSON object with a line per key; none if it is `null`.
-fn number(json: &str, key: &str) -> Option<f64> {
-    let quoted = format!("\"{key}\":");
-    let value = json.lines().find_map(|line| line.trim().strip_prefix(&quoted))?;
-    value.trim().trim_end_matches(',').parse().ok()
-}
-
-/// Rows under a header, as a Markdown table.
-fn table(rows: &[[String; 4]]) -> String {
-    let mut text = String::new();
-    for (index, row) in rows.iter().enumerate() {
-        text += &format!("| {} |\n", row.join(" | "));
-        if index == 0 {
-            text += "| --- | ---: | ---: | ---: |\n";
-        }
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_number_is_read_by_its_whole_key() {
-        let json = "{\n  \"steps_per_second\": 1500000.5,\n  \"paper_run_seconds\": null\n}";
-        assert_eq!(number(json, "steps_per_second"), Some(1_500_000.5));
-        assert_eq!(number(json, "paper_run_seconds"), None);
-        assert_eq!(number(json, "per_second"), None);
-    }
-
-    #[test]
-    fn a_table_has_a_line_under_its_header() {
-        let row = |first: &str| [first, "a", "b", "c"].map(String::from);
-        let text = table(&[row("head"), row("one")]);
-        assert_eq!(
-            text,
-            "| head | a | b | c |\n| --- | ---: | ---: | ---: |\n| one | a | b | c |\n"
-        );
-    }
+    let said = String::from_utf8_lossy(&output.stdout);
+    let steps = said.split_whitespace().next().and_then(|word| word.parse().ok());
+    let steps =
+        steps.ok_or_else(|| Failure::failed(format!("the program printed no steps: {said}")))?;
+    let profile = std::fs::read_to_string(&file)
+        .map_err(|error| Failure::failed(format!("{}: {error}", file.display())))?;
+    Counts::of(set, &profile, steps)
+        .map(Some)
+        .map_err(|why| Failure::failed(format!("{}: {why}", file.display())))
 }

@@ -7,7 +7,8 @@ use crate::options::Options;
 pub(crate) struct Command {
     /// First word of the command line.
     pub(crate) name: &'static str,
-    /// Its operands, then its options, each option as `[--name VALUE]`; values that are known are parted by `|`.
+    /// Its operands, then its options, each option as `[--name VALUE]`, or `[--name]` if it takes no value; values that are
+    /// known are parted by `|`.
     pub(crate) arguments: &'static str,
     /// What it does.
     pub(crate) summary: &'static str,
@@ -47,8 +48,13 @@ impl Command {
 
     /// What the help says about an option's value, if this command takes the option.
     fn values(&self, option: &str) -> Option<&'static str> {
-        let (_, rest) = self.arguments.split_once(&format!("[--{option} "))?;
-        rest.split(']').next()
+        let options = self.arguments.split("[--").skip(1).filter_map(|rest| rest.split(']').next());
+        options
+            .filter_map(|known| match known.split_once(' ') {
+                Some((name, values)) => (name == option).then_some(values),
+                None => (known == option).then_some(""),
+            })
+            .next()
     }
 }
 
@@ -63,6 +69,8 @@ mod tests {
         run: |_| Ok(()),
     };
 
+    const BENCH: Command = Command { name: "bench", arguments: "[--json] [--counted]", ..BUILD };
+
     const SPEED: Command = Command { name: "speed", arguments: "", ..BUILD };
 
     fn start(command: &Command, line: &str) -> Result<(), String> {
@@ -75,6 +83,7 @@ mod tests {
         assert_eq!(start(&BUILD, "build a b --sabotage hang --targets debian"), Ok(()));
         assert_eq!(start(&BUILD, "build"), Ok(()));
         assert_eq!(start(&SPEED, "speed --targets rustup"), Ok(()));
+        assert_eq!(start(&BENCH, "bench --counted --json"), Ok(()));
     }
 
     #[test]
@@ -84,6 +93,11 @@ mod tests {
             refusal(&SPEED, "speed mps2-an385"),
             "speed: found `mps2-an385`, expected no more words"
         );
+        assert_eq!(
+            refusal(&SPEED, "speed --json"),
+            "speed: no option `--json`; expected: cargo xtask speed"
+        );
+        assert_eq!(refusal(&BENCH, "bench x"), "bench: found `x`, expected no more words");
         assert_eq!(
             refusal(&BUILD, "build --timeout 5"),
             "build: no option `--timeout`; expected: cargo xtask build [BOARD]… [--sabotage panic|hang]"

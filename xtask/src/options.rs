@@ -56,12 +56,19 @@ pub(crate) struct Options {
     pub(crate) icount: Option<u8>,
     /// `--prove`: the folder with the cases that the board drives instead, and for its results.
     pub(crate) prove: Option<PathBuf>,
+    /// `--json`: print the result as JSON.
+    pub(crate) json: bool,
+    /// `--counted`: count instructions instead of taking times.
+    pub(crate) counted: bool,
     /// `--timeout`: wall-clock time a board may take, 60 s unless said otherwise.
     pub(crate) timeout: Duration,
 }
 
-/// Every option; each takes a value.
+/// Every option that takes a value.
 const VALUED: [&str; 7] = ["targets", "board", "sabotage", "weights", "icount", "prove", "timeout"];
+
+/// Every option that takes none.
+const FLAGS: [&str; 2] = ["json", "counted"];
 
 impl Options {
     /// Reads the words after `cargo xtask`.
@@ -81,6 +88,8 @@ impl Options {
             weights: None,
             icount: None,
             prove: None,
+            json: false,
+            counted: false,
             timeout,
         };
         let mut words = arguments.into_iter();
@@ -96,6 +105,10 @@ impl Options {
                 options.command = None;
                 return Ok(options);
             }
+            if let Some(flag) = FLAGS.into_iter().find(|flag| *flag == option) {
+                options.raise(flag);
+                continue;
+            }
             let (name, value) = match option.split_once('=') {
                 Some((name, value)) => (name, Some(value.to_owned())),
                 None => (option, words.next()),
@@ -105,9 +118,18 @@ impl Options {
         Ok(options)
     }
 
+    fn raise(&mut self, flag: &'static str) {
+        self.given.push(flag);
+        match flag {
+            "json" => self.json = true,
+            _ => self.counted = true,
+        }
+    }
+
     fn set(&mut self, name: &str, value: Option<String>) -> Result<(), Failure> {
         let Some(known) = VALUED.into_iter().find(|known| *known == name) else {
-            let known = VALUED.map(|name| format!("--{name}")).join(", ");
+            let known = VALUED.iter().chain(&FLAGS).map(|name| format!("--{name}"));
+            let known = known.collect::<Vec<_>>().join(", ");
             return Err(Failure::usage(format!("no option `--{name}`; expected one of: {known}")));
         };
         if known != "targets" {
@@ -160,11 +182,19 @@ mod tests {
     }
 
     #[test]
+    fn an_option_without_a_value_leaves_the_next_word_alone() {
+        let options = parse("bench --json extra --counted").expect("valid");
+        assert!(options.json && options.counted);
+        assert_eq!(options.operands, ["extra"]);
+        assert_eq!(options.given, ["json", "counted"]);
+    }
+
+    #[test]
     fn a_wrong_option_names_itself_and_what_was_expected() {
         let message = |line| parse(line).expect_err(line).to_string();
         assert_eq!(
             message("test --target x"),
-            "no option `--target`; expected one of: --targets, --board, --sabotage, --weights, --icount, --prove, --timeout"
+            "no option `--target`; expected one of: --targets, --board, --sabotage, --weights, --icount, --prove, --timeout, --json, --counted"
         );
         assert_eq!(
             message("test --targets brew"),

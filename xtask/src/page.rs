@@ -21,6 +21,16 @@ const BLESS: &str = "EVOSTEER_BLESS";
 
 /// Fails if the page shows another table for this compiler.
 pub(crate) fn keep(place: &Place, compiler: &str, table: &str) -> Result<(), Failure> {
+    keep_within(place, compiler, table, 0.0)
+}
+
+/// The same, but numbers may differ by this share of the page's.
+pub(crate) fn keep_within(
+    place: &Place,
+    compiler: &str,
+    table: &str,
+    margin: f64,
+) -> Result<(), Failure> {
     let page = process::root().join(place.page);
     let text = std::fs::read_to_string(&page).map_err(|error| at(&page, &error.to_string()))?;
     let shown = Shown::find(place, &text).map_err(|why| at(&page, &why))?;
@@ -35,7 +45,7 @@ pub(crate) fn keep(place: &Place, compiler: &str, table: &str) -> Result<(), Fai
         );
         return Ok(());
     }
-    match shown.first_difference(table) {
+    match shown.first_difference(table, margin) {
         None => Ok(()),
         Some((found, expected)) => Err(at(
             &page,
@@ -43,6 +53,14 @@ pub(crate) fn keep(place: &Place, compiler: &str, table: &str) -> Result<(), Fai
                 "the table is out of date: found\n{found}\nexpected\n{expected}\n{BLESS}=1 writes it anew"
             ),
         )),
+    }
+}
+
+/// Writes a table that no two machines make alike, on request only.
+pub(crate) fn bless(place: &Place, machine: &str, table: &str) -> Result<(), Failure> {
+    match std::env::var_os(BLESS) {
+        Some(_) => keep(place, machine, table),
+        None => Ok(()),
     }
 }
 
@@ -62,6 +80,18 @@ fn at(page: &Path, why: &str) -> Failure {
     Failure::failed(format!("{}: {why}", page.display()))
 }
 
+/// Whether two rows say the same, where numbers may differ by this share of the first.
+fn agree(found: &str, expected: &str, margin: f64) -> bool {
+    let same = |(found, expected): (&str, &str)| {
+        let numbers = found.trim().parse::<f64>().ok().zip(expected.trim().parse::<f64>().ok());
+        found == expected
+            || numbers
+                .is_some_and(|(found, expected)| (found - expected).abs() <= margin * found.abs())
+    };
+    let cells = |row: &str| row.split('|').count();
+    cells(found) == cells(expected) && found.split('|').zip(expected.split('|')).all(same)
+}
+
 /// The table as the page has it.
 struct Shown<'a> {
     compiler: &'a str,
@@ -78,10 +108,11 @@ impl<'a> Shown<'a> {
         Ok(Self { compiler, table })
     }
 
-    fn first_difference(&self, table: &'a str) -> Option<(&'a str, &'a str)> {
-        let lines = self.table.trim().lines().zip(table.trim().lines());
-        let differing = lines.clone().find(|(found, expected)| found != expected);
-        let cut = (self.table.trim() != table.trim()).then_some((self.table, table));
+    fn first_difference(&self, table: &'a str, margin: f64) -> Option<(&'a str, &'a str)> {
+        let (found, expected) = (self.table.trim(), table.trim());
+        let mut lines = found.lines().zip(expected.lines());
+        let differing = lines.find(|(found, expected)| !agree(found, expected, margin));
+        let cut = (found.lines().count() != expected.lines().count()).then_some((found, expected));
         differing.or(cut)
     }
 
@@ -107,10 +138,19 @@ mod tests {
     fn a_changed_a_missing_and_a_further_row_are_differences() {
         let shown = Shown::find(&SPEED, TEXT).expect("has a table");
         assert_eq!(shown.compiler, "rustc 1");
-        assert_eq!(shown.first_difference("| a |\n| 1 |\n"), None);
-        assert_eq!(shown.first_difference("| a |\n| 2 |\n"), Some(("| 1 |", "| 2 |")));
-        assert!(shown.first_difference("| a |\n").is_some());
-        assert!(shown.first_difference("| a |\n| 1 |\n| 2 |\n").is_some());
+        assert_eq!(shown.first_difference("| a |\n| 1 |\n", 0.0), None);
+        assert_eq!(shown.first_difference("| a |\n| 2 |\n", 0.0), Some(("| 1 |", "| 2 |")));
+        assert!(shown.first_difference("| a |\n", 0.0).is_some());
+        assert!(shown.first_difference("| a |\n| 1 |\n| 2 |\n", 0.0).is_some());
+    }
+
+    #[test]
+    fn numbers_within_the_margin_agree_and_nothing_else_does() {
+        let agree = |found, expected| agree(found, expected, 0.02);
+        assert!(agree("| avx2 | 500 | 1000 |", "| avx2 | 510 | 980 |"));
+        assert!(!agree("| avx2 | 500 | 1000 |", "| avx2 | 511 | 1000 |"));
+        assert!(!agree("| avx2 | 500 |", "| sse2 | 500 |"));
+        assert!(!agree("| avx2 | 500 |", "| avx2 | 500 | 1 |"));
     }
 
     #[test]
@@ -119,7 +159,7 @@ mod tests {
             .expect("has a table")
             .replaced(&SPEED, TEXT, "rustc 2", "| b |\n");
         let shown = Shown::find(&SPEED, &text).expect("has a table");
-        assert_eq!((shown.compiler, shown.first_difference("| b |")), ("rustc 2", None));
+        assert_eq!((shown.compiler, shown.first_difference("| b |", 0.0)), ("rustc 2", None));
         assert!(text.starts_with("# Page\n") && text.ends_with(" -->\nrest\n"), "{text}");
     }
 

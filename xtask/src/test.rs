@@ -6,6 +6,7 @@ use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 use std::time::Instant;
 
+use crate::bench;
 use crate::boards;
 use crate::exhaustive;
 use crate::failure::Failure;
@@ -31,6 +32,7 @@ const STEPS: &[Step] = &[
     ("no panic can be reached", |options, _| panic_free::test(options)),
     ("flash, RAM and stack", |options, _| size::run(options)),
     ("instructions of a step", |options, _| speed::run(options)),
+    ("instructions of a simulated step", |_, _| bench::counted()),
     ("one tanh on host and board", |options, _| exhaustive::sample(options)),
     ("tests on the host and on the emulated boards", cargo_test),
 ];

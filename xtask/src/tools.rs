@@ -29,11 +29,12 @@ pub(crate) fn fetch_all(options: &Options) -> Result<(), Failure> {
 }
 
 /// Programs that tests call: the program, its Debian package, and what it is for.
-const TEST_TOOLS: [(&str, &str, &str); 4] = [
+const TEST_TOOLS: [(&str, &str, &str); 5] = [
     ("chromium", "chromium", "a test opens the report in a browser"),
     ("chromedriver", "chromium-driver", "a test presses the report's buttons"),
     ("python3", "python3", "independent decoders of our formats are written in Python"),
     ("objcopy", "binutils", "a test reads exported Intel HEX back"),
+    ("valgrind", "valgrind", "it counts the instructions of a simulated step"),
 ];
 
 /// Whether a part of the toolchain answers; rustup leaves its proxy in place for parts it does not have.
@@ -64,5 +65,13 @@ pub(crate) fn need_emulator(board: &Board) -> Result<(), Failure> {
             board.emulator.program,
             &apt::command_line(&[board.emulator.package]),
         )),
+    }
+}
+
+/// Fails, naming the way out, unless valgrind is here.
+pub(crate) fn need_valgrind() -> Result<(), Failure> {
+    match process::which("valgrind") {
+        Some(_) => Ok(()),
+        None => Err(Failure::missing("valgrind", &apt::command_line(&["valgrind"]))),
     }
 }

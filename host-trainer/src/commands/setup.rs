@@ -4,7 +4,7 @@ use super::advice::in_shell;
 use crate::blob_file::BlobFile;
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::pairs::{NoPair, PairSampler};
+use crate::pairs::NoPair;
 use crate::problem::{Problem, Replaced, adopt_car};
 use crate::run_folder::{Manifest, RunFolder};
 use crate::scenario::{
@@ -67,7 +67,8 @@ impl WhichPairs {
             PairSource::Drawn { .. } if self.listed => Err(Failure::bad_input(format!(
                 "--listed: the scenario {name} lists no pairs; leave the option out to draw some"
             ))),
-            _ => PairSampler::new(&problem.world, &problem.scenario)
+            _ => problem
+                .sampler()
                 .unseen(seed, count)
                 .map_err(|none| no_pair(typed, &options.settings(), none)),
         }
@@ -86,7 +87,7 @@ pub(super) fn can_draw(
     settings: &[Setting],
     seed: RunSeed,
 ) -> Result<(), Failure> {
-    let sampler = PairSampler::new(&problem.world, &problem.scenario);
+    let sampler = problem.sampler();
     sampler
         .training(&problem.scenario, seed, 0)
         .and_then(|_| sampler.unseen(seed, 1))

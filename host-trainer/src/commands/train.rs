@@ -257,7 +257,7 @@ fn manifest(seed: RunSeed, scenario: &Scenario) -> Result<Manifest<Scenario>, Fa
     let mut inputs = Vec::new();
     if let Some(map) = &scenario.world.map {
         inputs.push(Input::of_file(&map.yaml)?);
-        let image = crate::map::load(&map.yaml)?.image;
+        let image = crate::map::image(&map.yaml)?;
         inputs.push(Input::of_file(&image)?);
     }
     Manifest::new(seed.0, scenario.clone(), blob::VERSION, inputs)

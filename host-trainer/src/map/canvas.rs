@@ -12,6 +12,8 @@ pub(super) struct Canvas {
     rule: CellRule,
     cells: Vec<i8>,
     painted: u64,
+    /// The pixel before, and its cell: neighbours are mostly alike.
+    last: Option<(Pixel, i8)>,
 }
 
 impl Canvas {
@@ -26,7 +28,7 @@ impl Canvas {
         let mut cells = Vec::new();
         cells.try_reserve_exact(count).map_err(|_| MapProblem::Memory { bytes: count })?;
         cells.resize(count, UNKNOWN);
-        Ok(Self { width, height, rule, cells, painted: 0 })
+        Ok(Self { width, height, rule, cells, painted: 0, last: None })
     }
 
     /// Sets the cell of one pixel, counted from the top left; outside the grid does nothing.
@@ -36,7 +38,12 @@ impl Canvas {
         }
         let y = self.height - 1 - row;
         let index = y as usize * self.width as usize + x as usize;
-        self.cells[index] = self.rule.cell(pixel);
+        let cell = match self.last {
+            Some((known, cell)) if known == pixel => cell,
+            _ => self.rule.cell(pixel),
+        };
+        self.last = Some((pixel, cell));
+        self.cells[index] = cell;
         self.painted += 1;
     }
 

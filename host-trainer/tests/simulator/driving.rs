@@ -4,7 +4,6 @@ use crate::worlds::{Script, command, from_toml, random, shipped};
 use controller_core::observation::Reading;
 use host_trainer::car::CarModel;
 use host_trainer::episode::{Outcome, Trace};
-use host_trainer::pairs::PairSampler;
 use host_trainer::problem::Problem;
 use host_trainer::scenario::{OnCollision, Pair, Scenario};
 use host_trainer::seed::RunSeed;
@@ -23,7 +22,7 @@ fn random_drive(problem: &Problem, pair: &Pair, seed: u64) -> (Outcome, Trace) {
 fn drives(scenario: Scenario) -> (Problem, Vec<(Outcome, Trace)>) {
     let problem = Problem::new(scenario).unwrap();
     let pairs = {
-        let sampler = PairSampler::new(&problem.world, &problem.scenario);
+        let sampler = problem.sampler();
         sampler.unseen(RunSeed(51), 100).unwrap()
     };
     let drive = |(seed, pair): (u64, &Pair)| random_drive(&problem, pair, seed);

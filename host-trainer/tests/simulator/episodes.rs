@@ -5,7 +5,6 @@ use controller_core::motion::Pose;
 use controller_core::observation::{Echo, Reading};
 use host_trainer::car::{CarModel, SimulatedCar};
 use host_trainer::episode::{Outcome, Trace};
-use host_trainer::pairs::PairSampler;
 use host_trainer::problem::{Problem, training_drive};
 use host_trainer::scenario::{Pair, Scenario};
 use host_trainer::seed::RunSeed;
@@ -233,7 +232,7 @@ fn a_drive_does_not_depend_on_the_drives_around_it() {
     scenario.sensors.noise = 0.02;
     scenario.network.recurrence = controller_core::network::RecurrenceKind::Elman;
     let problem = Problem::new(scenario).unwrap();
-    let sampler = PairSampler::new(&problem.world, &problem.scenario);
+    let sampler = problem.sampler();
     let pairs = sampler.unseen(RunSeed(5), 8).unwrap();
     let mut stream = random(9);
     let genome: Vec<f32> =

@@ -2,7 +2,6 @@
 
 use crate::worlds::{PAPER, random, shipped};
 use host_trainer::fingerprint::sha256;
-use host_trainer::pairs::PairSampler;
 use host_trainer::problem::Problem;
 use host_trainer::seed::RunSeed;
 use std::fmt::Write;
@@ -13,7 +12,7 @@ fn drives(name: &str) -> String {
     let mut stream = random(81);
     let weights = problem.topology().weights();
     let genome: Vec<f32> = (0..weights).map(|_| stream.within(-1.0, 1.0)).collect();
-    let pairs = PairSampler::new(&problem.world, &problem.scenario).unseen(RunSeed(8), 10).unwrap();
+    let pairs = problem.sampler().unseen(RunSeed(8), 10).unwrap();
     let mut brain = problem.brain(&genome).unwrap();
     let mut bits = Vec::new();
     let (mut steps, mut collisions) = (0, 0);

@@ -1,7 +1,6 @@
 //! A scenario as a picture: its world, its listed pairs, and drawn ones.
 
 use crate::failure::Failure;
-use crate::pairs::PairSampler;
 use crate::picture;
 use crate::problem::Problem;
 use crate::report::data::Task;
@@ -19,7 +18,8 @@ pub(super) fn draw(problem: &Problem, count: u32, seed: RunSeed) -> Result<Strin
     let scenario = &problem.scenario;
     let unseen = match count {
         0 => Vec::new(),
-        _ => PairSampler::new(&problem.world, scenario)
+        _ => problem
+            .sampler()
             .unseen(seed, count)
             .map_err(|error| Failure::bad_input(format!("{}: {error}", scenario.name)))?,
     };

@@ -7,7 +7,6 @@ use crate::episode::Outcome;
 use crate::evaluation::{self, Evaluation};
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::pairs::PairSampler;
 use crate::problem::{Problem, evaluation_drive, training_drive};
 use crate::report::{data::Drive, page, plots};
 use crate::run_folder::RunFolder;
@@ -79,7 +78,8 @@ pub(super) fn finish(
 
     let pairs = training.pairs(best.generation)?;
     let place = |drive| training_drive(seed, best.generation, drive);
-    let unseen = PairSampler::new(&problem.world, &problem.scenario)
+    let unseen = problem
+        .sampler()
         .unseen(seed, UNSEEN_PAIRS)
         .map_err(|error| Failure::bad_input(error.to_string()))?;
     let never_seen = |index| evaluation_drive(seed, index);

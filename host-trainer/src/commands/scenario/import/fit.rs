@@ -1,7 +1,6 @@
 //! Target, pairs and step limit that suit a room.
 
 use crate::failure::Failure;
-use crate::pairs::PairSampler;
 use crate::problem::Problem;
 use crate::scenario::{Bounds, Scenario, StepLength};
 use crate::seed::RunSeed;
@@ -76,7 +75,7 @@ pub(super) fn fit(
     let mut candidate = Some(Fit::of(whole, room));
     while let Some(fit) = candidate {
         let problem = build(fit)?;
-        let found = PairSampler::new(&problem.world, &problem.scenario).unseen(RunSeed(1), PROOF);
+        let found = problem.sampler().unseen(RunSeed(1), PROOF);
         if found.is_ok() {
             return Ok(problem);
         }

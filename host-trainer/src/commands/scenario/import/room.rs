@@ -8,7 +8,6 @@ use super::fit;
 use crate::car::body_of;
 use crate::failure::Failure;
 use crate::map::OccupancyMap;
-use crate::pairs::PairSampler;
 use crate::problem::Problem;
 use crate::scenario::{Bounds, Pair};
 use crate::seed::RunSeed;
@@ -100,7 +99,7 @@ impl Room {
 
 /// A warning if some of the pairs that evaluation draws start off the map.
 pub(super) fn starts_off_map(problem: &Problem, map: &OccupancyMap) -> Option<String> {
-    let sampler = PairSampler::new(&problem.world, &problem.scenario);
+    let sampler = problem.sampler();
     let pairs = sampler.unseen(RunSeed(1), fit::PROOF).ok()?;
     let off = |pair: &&Pair| map.cell_at([pair.start[0], pair.start[1]]).is_none();
     let count = pairs.iter().filter(off).count();
