@@ -9,6 +9,7 @@ pub mod checkpoint;
 pub mod cli;
 pub mod commands;
 pub mod disturbances;
+pub mod drivable;
 pub mod episode;
 pub mod evaluation;
 pub mod evolve;
