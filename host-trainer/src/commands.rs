@@ -5,6 +5,7 @@ pub mod bench;
 mod blob_summary;
 pub mod evaluate;
 pub mod export;
+mod film;
 pub mod inspect;
 mod number;
 pub mod replay;
