@@ -3,6 +3,7 @@
 mod advice;
 pub mod bench;
 mod blob_summary;
+pub mod demo;
 pub mod evaluate;
 pub mod export;
 mod film;

@@ -141,6 +141,7 @@ fn every_verb_prints_one_object_without_nan_or_infinity() {
         "evaluate run open --pairs 7 --json",
         "evaluate run open --pairs 7 --stress --drivable --out curves.svg --json",
         "replay run open --pairs 2 --json",
+        "demo --pairs 2 --out demo.html --json",
         "export run --format bin --json",
         "export run --format hex --json",
         "export run --format uf2 --json",
