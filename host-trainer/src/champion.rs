@@ -1,5 +1,7 @@
 //! The winner, as the bytes that go onto the car.
 
+pub mod shipped;
+
 use crate::fingerprint;
 use crate::problem::Problem;
 use crate::seed::{Purpose, RunSeed};

@@ -1,6 +1,6 @@
 //! The command line: what was typed, and the exit code it ends in.
 
-use crate::commands::{bench, evaluate, export, inspect, replay, scenario, train, verify};
+use crate::commands::{bench, demo, evaluate, export, inspect, replay, scenario, train, verify};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::signals::{self, StopFlag};
@@ -22,6 +22,7 @@ enum Command {
     Train(train::TrainArgs),
     Evaluate(evaluate::EvaluateArgs),
     Replay(replay::ReplayArgs),
+    Demo(demo::DemoArgs),
     Scenario(scenario::ScenarioArgs),
     Export(export::ExportArgs),
     Inspect(inspect::InspectArgs),
@@ -35,6 +36,7 @@ impl Command {
             Self::Train(args) => args.json,
             Self::Evaluate(args) => args.json,
             Self::Replay(args) => args.json,
+            Self::Demo(args) => args.json,
             Self::Scenario(args) => args.wants_json(),
             Self::Export(args) => args.json,
             Self::Inspect(args) => args.json,
@@ -51,6 +53,7 @@ impl Command {
             Self::Train(args) => train::run(args, &StopFlag::install()?, output),
             Self::Evaluate(args) => evaluate::run(args, output),
             Self::Replay(args) => replay::run(args, output),
+            Self::Demo(args) => demo::run(args, output),
             Self::Scenario(args) => scenario::run(args, output),
             Self::Export(args) => export::run(args, output),
             Self::Inspect(args) => inspect::run(args, output),

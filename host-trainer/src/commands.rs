@@ -3,8 +3,10 @@
 mod advice;
 pub mod bench;
 mod blob_summary;
+pub mod demo;
 pub mod evaluate;
 pub mod export;
+mod film;
 pub mod inspect;
 mod number;
 pub mod replay;

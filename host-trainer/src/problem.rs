@@ -2,6 +2,7 @@
 
 use crate::brain::{self, Brain, NotBuiltIn};
 use crate::car::{CarModel, scaling_of};
+use crate::disturbances::Disturbances;
 use crate::episode::{self, Outcome, Trace};
 use crate::failure::Failure;
 use crate::pairs::PairSampler;
@@ -52,6 +53,13 @@ impl Problem {
             activation: scenario.network.activation,
             scenario,
         })
+    }
+
+    /// Makes the car imperfect in this way instead of its own. The world stays, and what is
+    /// known of it.
+    pub fn disturb(&mut self, disturbances: Disturbances) {
+        disturbances.put_into(&mut self.scenario);
+        self.model = CarModel::new(&self.scenario);
     }
 
     /// The network that is searched for.

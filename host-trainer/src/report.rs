@@ -10,6 +10,7 @@
 //! | [`loops`] | whether a drive ended up repeating itself (the paper's Fig. 8) |
 //! | [`plots`] | fitness and partial criteria over generations, the path of a drive |
 //! | [`map`] | the world as an SVG file, to scale |
+//! | [`stress`] | what each disturbance costs, over its size |
 //! | [`page`] | `report.html` and `replay.html`, which open without a network |
 
 pub mod data;
@@ -17,6 +18,7 @@ pub mod loops;
 pub mod map;
 pub mod page;
 pub mod plots;
+pub mod stress;
 
 mod palette;
 mod svg;

@@ -12,6 +12,7 @@ mod apt;
 mod bench;
 mod boards;
 mod call_graph;
+mod champions;
 mod command;
 mod doctor;
 mod elf;
@@ -118,6 +119,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[--json] [--counted]",
         summary: "the simulator's speed in one table, parry2d beside it; counted: instructions per step, held to bounds",
         run: bench::run,
+    },
+    Command {
+        name: "champions",
+        arguments: "[SCENE]…",
+        summary: "trains the shipped champions again, and compares every byte",
+        run: champions::run,
     },
     Command {
         name: "size",

@@ -47,6 +47,58 @@ fn an_evaluation_has_the_keys_that_others_rely_on() {
     assert!(found["clean"].as_f64() <= found["reached"].as_f64());
 }
 
+/// A champion of 3 generations: what counts is the form.
+#[test]
+fn a_stress_test_adds_its_keys_and_changes_none() {
+    let bench = Bench::new();
+    bench.train("open", "run", &[]).ends_in(0);
+    let line = "evaluate run obstacles --pairs 30 --json --set sensors.noise_m=0.3";
+    let plain = json(&bench, line);
+    let found = json(&bench, &format!("{line} --stress"));
+    for key in keys(&plain) {
+        assert_eq!(found[key], plain[key], "{key}");
+    }
+    let calm = json(&bench, "evaluate run obstacles --pairs 30 --json");
+    assert_eq!(found["calm"]["reached"], calm["reached"]);
+    assert!(found.get("weakest").is_some(), "{found:#}");
+    let factors = found["stress"].as_array().unwrap();
+    let names: Vec<&str> =
+        factors.iter().map(|factor| factor["factor"].as_str().unwrap()).collect();
+    let expected = [
+        "distance_noise",
+        "dropped_beams",
+        "servo_time",
+        "dead_time",
+        "steer_offset",
+        "wheelbase",
+        "step_length",
+        "start",
+    ];
+    assert_eq!(names, expected);
+    let steps = json(
+        &bench,
+        "evaluate run obstacles --pairs 30 --json \
+        --set episode.randomise.step=0.2",
+    );
+    // By name: the third level is twice the full size.
+    assert_eq!(factors[6]["levels"][2]["magnitude"].as_f64().unwrap() as f32, 0.2);
+    for key in ["reached", "reached_interval", "clean", "clean_interval"] {
+        assert_eq!(factors[6]["levels"][2][key], steps[key], "{key}");
+    }
+    assert_eq!(found["together"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn of_drivable_pairs_only_the_rest_is_left_out() {
+    let bench = Bench::new();
+    bench.train("open", "run", &["--set", "vehicle.steer_limit_deg=25"]).ends_in(0);
+    let found = json(&bench, "evaluate run complex --pairs 40 --drivable --json");
+    assert_eq!(found["drawn"], 40);
+    let share = found["drivable"].as_f64().unwrap();
+    assert_eq!(found["pairs"].as_f64().unwrap(), (share * 40.0).round());
+    assert!(0.3 < share && share < 1.0, "{found:#}");
+}
+
 /// What people read as notes on standard error.
 #[test]
 fn what_the_champions_own_car_replaces_is_listed() {
@@ -87,7 +139,9 @@ fn every_verb_prints_one_object_without_nan_or_infinity() {
     assert_eq!(keys(&run), expected);
     let lines = [
         "evaluate run open --pairs 7 --json",
+        "evaluate run open --pairs 7 --stress --drivable --out curves.svg --json",
         "replay run open --pairs 2 --json",
+        "demo --pairs 2 --out demo.html --json",
         "export run --format bin --json",
         "export run --format hex --json",
         "export run --format uf2 --json",
@@ -99,9 +153,11 @@ fn every_verb_prints_one_object_without_nan_or_infinity() {
         let value = json(&bench, line);
         let mut found = Vec::new();
         nulls(&value, "", &mut found);
-        // Nothing was reached, or the drive does not loop.
+        // Nothing was reached, the drive does not loop, no factor costs anything.
         found.retain(|path| {
-            !["mean_steps_when_reached", "loop_period"].iter().any(|end| path.ends_with(end))
+            !["mean_steps_when_reached", "loop_period", "weakest"]
+                .iter()
+                .any(|end| path.ends_with(end))
         });
         let optional = line.starts_with("export");
         assert!(optional || found.is_empty(), "{line}: {found:?}\n{value:#}");

@@ -42,7 +42,9 @@ fn run(mut command: Command, folder: &Path) -> (String, ExitStatus) {
 /// The repository as far as the commands of a page use it.
 fn workplace() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    copy(&pages::root().join("scenarios"), &folder.path().join("scenarios"));
+    for name in ["scenarios", "champions"] {
+        copy(&pages::root().join(name), &folder.path().join(name));
+    }
     folder
 }
 

@@ -6,6 +6,7 @@
 //! commit it.
 
 mod architecture;
+mod champions;
 mod commands;
 mod console;
 mod lamp;

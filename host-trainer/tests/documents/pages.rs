@@ -14,6 +14,7 @@ pub(crate) fn all() -> Vec<String> {
     for folder in [
         "",
         "docs",
+        "champions",
         "controller-core",
         "controller-core/docs",
         "firmware-example",

@@ -4,6 +4,7 @@ mod barn;
 mod beams;
 mod contacts;
 mod corners;
+mod drivable;
 mod driving;
 mod episodes;
 mod fingerprint;

@@ -1,0 +1,114 @@
+//! What the files beside the shipped champions say is what their blobs hold and how they drive.
+
+use super::pages;
+use host_trainer::champion::shipped::{CHAMPIONS, Champion};
+use host_trainer::evaluation::Evaluation;
+use host_trainer::fingerprint;
+use host_trainer::pairs::PairSampler;
+use host_trainer::problem::{Problem, adopt_car};
+use host_trainer::scenario::{self, Scenario, Setting};
+use host_trainer::seed::RunSeed;
+use host_trainer::signals::StopFlag;
+use std::fmt::Write;
+
+/// Pairs and their seed, for the figures.
+const UNSEEN: (u32, RunSeed) = (1000, RunSeed(2));
+
+/// The line that says how a champion was made.
+fn command(champion: &Champion) -> &str {
+    let lines = champion.provenance.lines();
+    let mut lines = lines.filter_map(|line| line.strip_prefix("command = \"")?.strip_suffix('"'));
+    lines.next().unwrap_or_else(|| panic!("{}: no command", champion.scene))
+}
+
+/// Scenario and seed that a command trains with.
+fn trained_with(command: &str) -> (Scenario, RunSeed) {
+    let mut words = command.split_whitespace();
+    assert_eq!([words.next(), words.next()], [Some("evosteer"), Some("train")], "{command}");
+    let name = words.next().unwrap();
+    let (mut settings, mut seed, mut preset) = (Vec::new(), RunSeed(1), None);
+    while let Some(option) = words.next() {
+        let value = words.next().unwrap_or_else(|| panic!("{option} of {command}"));
+        match option {
+            "--seed" => seed = value.parse().unwrap(),
+            "--set" => settings.push(Setting::set(value)),
+            "--preset" => {
+                preset = scenario::Preset::ALL.into_iter().find(|preset| preset.name() == value);
+                assert!(preset.is_some(), "{command}");
+            }
+            "--population" | "--generations" => {
+                let key = format!("training.{}", &option[2..]);
+                settings.push(Setting::option(option, &key, value));
+            }
+            _ => panic!("{option} of {command} is not known here"),
+        }
+    }
+    (scenario::load(&scenario::find(name).unwrap(), preset, &settings).unwrap(), seed)
+}
+
+/// How a champion drives its scene.
+fn figures(champion: &Champion) -> Evaluation {
+    let file = champion.file();
+    let mut scene = scenario::load(&scenario::find(champion.scene).unwrap(), None, &[]).unwrap();
+    adopt_car(&mut scene, file.blob().header());
+    let problem = Problem::new(scene).unwrap();
+    let (count, seed) = UNSEEN;
+    let pairs = PairSampler::new(&problem.world, &problem.scenario).unseen(seed, count).unwrap();
+    Evaluation::of(&problem, file.blob().weights(), &pairs, seed, &StopFlag::default()).unwrap()
+}
+
+/// What stands beside a champion.
+fn provenance(champion: &Champion) -> String {
+    let Champion { scene, .. } = champion;
+    let file = champion.file();
+    let made = file.blob().header().provenance;
+    let [major, minor, patch] = made.tool;
+    let drives = figures(champion);
+    let mut text = String::new();
+    let mut line = |line: String| writeln!(text, "{line}").unwrap();
+    line(format!(
+        "# How champions/{scene}.blob was made, and how it drives on pairs that no training has seen."
+    ));
+    line(format!("# `cargo xtask champions {scene}` trains it again and compares every byte."));
+    line(format!("command = \"{}\"", command(champion)));
+    line(format!("evosteer = \"{major}.{minor}.{patch}\""));
+    line(format!("seed = {}", made.seed));
+    line(format!("generation = {}", made.generation));
+    line(format!("sha256 = \"{}\"", fingerprint::sha256(file.bytes())));
+    line(format!("\n[unseen]\nscenario = \"{scene}\""));
+    line(format!("pairs = {}", drives.pairs));
+    line(format!("seed = {}", drives.seed));
+    for (name, share, [low, high]) in [
+        ("reached", drives.reached, drives.reached_interval),
+        ("clean", drives.clean, drives.clean_interval),
+    ] {
+        line(format!("{name} = {share:.4}"));
+        line(format!("{name}_interval = [{low:.4}, {high:.4}]"));
+    }
+    text
+}
+
+#[test]
+fn a_champions_file_says_what_its_blob_holds_and_how_it_drives() {
+    for champion in CHAMPIONS {
+        pages::expect(&format!("champions/{}.toml", champion.scene), &provenance(champion));
+    }
+}
+
+/// Training takes too long for a test; that nothing that decides it has changed does not.
+/// `cargo xtask champions` trains.
+#[test]
+fn the_recorded_command_means_the_settings_that_the_blob_was_trained_with() {
+    for champion in CHAMPIONS {
+        let (scenario, seed) = trained_with(command(champion));
+        let file = champion.file();
+        let made = file.blob().header().provenance;
+        let digest = fingerprint::scenario(&scenario);
+        assert_eq!(made.scenario_hash, digest[..8], "{}: other settings", champion.scene);
+        assert_eq!(made.seed, seed.0, "{}", champion.scene);
+        assert!(made.generation < scenario.training.generations, "{}", champion.scene);
+        let [major, minor, patch] = made.tool;
+        let version = env!("CARGO_PKG_VERSION");
+        assert_eq!(format!("{major}.{minor}.{patch}"), version, "{}", champion.scene);
+    }
+}

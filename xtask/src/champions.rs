@@ -1,0 +1,119 @@
+//! `cargo xtask champions`: trains the shipped champions again, and compares every byte.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::failure::Failure;
+use crate::options::Options;
+use crate::process;
+
+/// Trains the named champions, or all, by the commands in their provenance, and fails unless the
+/// blobs come out as they are shipped. With `EVOSTEER_BLESS` set, writes the blobs instead.
+pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+    let folder = process::root().join("champions");
+    let all = names(&folder)?;
+    if let Some(unknown) = options.operands.iter().find(|name| !all.contains(name)) {
+        return Err(Failure::usage(format!(
+            "champions: found `{unknown}`, expected one of: {}",
+            all.join(", ")
+        )));
+    }
+    let chosen = if options.operands.is_empty() { &all } else { &options.operands };
+    process::run(process::cargo().args(["build", "--release", "--package", "host-trainer"]))?;
+    let mut different = Vec::new();
+    for name in chosen {
+        let trained = train(&folder.join(format!("{name}.toml")), name)?;
+        let shipped = folder.join(format!("{name}.blob"));
+        if std::env::var_os("EVOSTEER_BLESS").is_some() {
+            fs::write(&shipped, &trained).map_err(|error| failed("write", &shipped, &error))?;
+            println!("{name}: written, {} bytes", trained.len());
+        } else if read(&shipped)? == trained {
+            println!("{name}: the same {} bytes", trained.len());
+        } else {
+            different.push(name.as_str());
+        }
+    }
+    if different.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::failed(format!(
+        "trained anew, these are not what is shipped: {}\n\
+         if the change is meant: EVOSTEER_BLESS=1 cargo xtask champions {}",
+        different.join(", "),
+        different.join(" ")
+    )))
+}
+
+/// Every champion of the folder: a file of provenance.
+fn names(folder: &Path) -> Result<Vec<String>, Failure> {
+    let entries = fs::read_dir(folder).map_err(|error| failed("read", folder, &error))?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let provenance = paths.filter(|path| path.extension().is_some_and(|end| end == "toml"));
+    let mut names: Vec<String> =
+        provenance.filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned())).collect();
+    names.sort();
+    Ok(names)
+}
+
+/// Trains as a provenance file says, and returns the champion's bytes.
+fn train(provenance: &Path, name: &str) -> Result<Vec<u8>, Failure> {
+    let text = String::from_utf8_lossy(&read(provenance)?).into_owned();
+    let words = arguments(&text).ok_or_else(|| {
+        Failure::failed(format!(
+            "{}: expected a line command = \"evosteer train …\"",
+            provenance.display()
+        ))
+    })?;
+    let run = process::root().join("target/champions").join(name);
+    match fs::remove_dir_all(&run) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            return Err(failed("remove", &run, &error));
+        }
+        _ => {}
+    }
+    let program: PathBuf = process::root().join("target/release/evosteer");
+    let mut command = Command::new(program);
+    command.current_dir(process::root()).args(words).arg("--out").arg(&run);
+    process::run(&mut command)?;
+    read(&run.join("champion.blob"))
+}
+
+/// The words after `evosteer` in the line that says how a champion was made.
+fn arguments(provenance: &str) -> Option<Vec<&str>> {
+    let line = provenance.lines().find_map(|line| line.strip_prefix("command = \"evosteer "))?;
+    Some(line.strip_suffix('"')?.split_whitespace().collect())
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    fs::read(path).map_err(|error| failed("read", path, &error))
+}
+
+fn failed(what: &str, path: &Path, error: &std::io::Error) -> Failure {
+    Failure::failed(format!("cannot {what} {}: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_of_every_shipped_champion_is_a_training() {
+        let folder = process::root().join("champions");
+        let names = names(&folder).expect("a folder");
+        assert!(!names.is_empty());
+        for name in names {
+            let text = fs::read_to_string(folder.join(format!("{name}.toml"))).expect(&name);
+            let words = arguments(&text).expect(&name);
+            assert_eq!(words[0], "train", "{name}");
+            assert!(!words.contains(&"--out"), "{name}: the folder is chosen by the task");
+        }
+    }
+
+    #[test]
+    fn a_file_without_a_command_is_not_guessed_at() {
+        assert_eq!(arguments("command = \"evosteer train a\""), Some(vec!["train", "a"]));
+        assert_eq!(arguments("seed = 1\ncommand = \"rm x\"\n"), None);
+        assert_eq!(arguments("command = \"evosteer train a"), None);
+    }
+}
