@@ -11,12 +11,14 @@
 //! | [`plots`] | fitness and partial criteria over generations, the path of a drive |
 //! | [`map`] | the world as an SVG file, to scale |
 //! | [`page`] | `report.html` and `replay.html`, which open without a network |
+//! | [`study`] | what a report over many runs is made from |
 
 pub mod data;
 pub mod loops;
 pub mod map;
 pub mod page;
 pub mod plots;
+pub mod study;
 
 mod palette;
 mod svg;
