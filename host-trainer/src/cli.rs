@@ -1,6 +1,8 @@
 //! The command line: what was typed, and the exit code it ends in.
 
-use crate::commands::{bench, evaluate, export, inspect, replay, scenario, train, verify};
+use crate::commands::{
+    bench, evaluate, export, inspect, replay, reproduce, scenario, train, verify,
+};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::signals::{self, StopFlag};
@@ -21,6 +23,7 @@ pub struct Cli {
 enum Command {
     Train(train::TrainArgs),
     Evaluate(evaluate::EvaluateArgs),
+    Reproduce(reproduce::ReproduceArgs),
     Replay(replay::ReplayArgs),
     Scenario(scenario::ScenarioArgs),
     Export(export::ExportArgs),
@@ -34,6 +37,7 @@ impl Command {
         match self {
             Self::Train(args) => args.json,
             Self::Evaluate(args) => args.json,
+            Self::Reproduce(args) => args.json,
             Self::Replay(args) => args.json,
             Self::Scenario(args) => args.wants_json(),
             Self::Export(args) => args.json,
@@ -47,8 +51,9 @@ impl Command {
         signals::survive_a_full_file()?;
         Instructions::choose()?;
         match self {
-            // Only training has something to save when it is asked to stop.
+            // Only what trains has something to save when it is asked to stop.
             Self::Train(args) => train::run(args, &StopFlag::install()?, output),
+            Self::Reproduce(args) => reproduce::run(args, &StopFlag::install()?, output),
             Self::Evaluate(args) => evaluate::run(args, output),
             Self::Replay(args) => replay::run(args, output),
             Self::Scenario(args) => scenario::run(args, output),

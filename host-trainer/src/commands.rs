@@ -8,6 +8,7 @@ pub mod export;
 pub mod inspect;
 mod number;
 pub mod replay;
+pub mod reproduce;
 pub mod scenario;
 mod setup;
 pub mod train;
