@@ -2,8 +2,17 @@
 
 use super::bench::Bench;
 
-const VERBS: [&str; 8] =
-    ["train", "evaluate", "replay", "scenario", "export", "inspect", "verify", "bench"];
+const VERBS: [&str; 9] = [
+    "train",
+    "evaluate",
+    "reproduce",
+    "replay",
+    "scenario",
+    "export",
+    "inspect",
+    "verify",
+    "bench",
+];
 
 #[test]
 fn every_help_text_reads_as_its_snapshot() {
