@@ -1,12 +1,12 @@
 //! `evosteer reproduce`: the paper's experiments over many seeds, beside the paper.
 
 mod finish;
+mod trials;
 
 use super::advice::{counted, in_shell, this_program};
 use super::number::whole;
 use crate::failure::{Failure, FailureKind};
-use crate::output::{Output, TrialProgress};
-use crate::reproduce::workers::{self, Event, Job};
+use crate::output::Output;
 use crate::reproduce::{PaperScene, Plan, Setup, Trial, method};
 use crate::run_folder::RunFolder;
 use crate::scenario::TrainingSpec;
@@ -155,7 +155,7 @@ pub fn run(args: &ReproduceArgs, stop: &StopFlag, output: &mut Output) -> Result
     let cores = || available_parallelism().map_or(1, usize::from);
     let threads = args.threads.map_or_else(cores, usize::from);
     let go_on = format!("{} reproduce --resume {}", this_program(), in_shell(folder.path()));
-    let done = trials(&folder, &plan, &setups, threads, stop, output)
+    let done = trials::all(&folder, &plan, &setups, threads, stop, output)
         .and_then(|trials| finish::finish(&folder, &plan, &setups, &trials, output));
     done.map_err(|failure| match failure.kind() {
         FailureKind::Interrupted { .. } => {
@@ -226,69 +226,4 @@ fn enough_seeds(plan: &Plan) -> Result<(), Failure> {
         counted(plan.seeds, "seed"),
         plan.seed
     )))
-}
-
-/// Every trial, read or done: one list per setup, by seed.
-fn trials(
-    folder: &RunFolder,
-    plan: &Plan,
-    setups: &[Setup],
-    threads: usize,
-    stop: &StopFlag,
-    output: &mut Output,
-) -> Result<Vec<Vec<Trial>>, Failure> {
-    let mut all: Vec<Vec<Option<Trial>>> = Vec::new();
-    for setup in setups {
-        all.push(
-            plan.seeds().map(|seed| Trial::read(setup, seed, folder)).collect::<Result<_, _>>()?,
-        );
-    }
-    let seeds: Vec<RunSeed> = plan.seeds().collect();
-    let places =
-        (0..setups.len()).flat_map(|setup| (0..seeds.len()).map(move |seed| (setup, seed)));
-    let missing: Vec<(usize, usize)> =
-        places.filter(|(setup, seed)| all[*setup][*seed].is_none()).collect();
-    let jobs: Vec<Job<'_>> = missing
-        .iter()
-        .map(|(setup, seed)| Job { setup: &setups[*setup], seed: seeds[*seed] })
-        .collect();
-    let total = setups.len() * seeds.len();
-    let mut done = total - jobs.len();
-    output.status(format_args!(
-        "{}: {}, {}, {}, {} ({done} done), {}, in {}",
-        plan.scenes.iter().map(|scene| scene.name()).collect::<Vec<_>>().join(", "),
-        counted(plan.methods.len() as u64, "method"),
-        counted(plan.seeds, "seed"),
-        counted(plan.pairs, "unseen pair"),
-        counted(total as u64, "trial"),
-        counted(threads as u64, "thread"),
-        folder.path().display()
-    ));
-    let work = jobs.iter().map(|job| job.setup.work()).sum();
-    let mut progress = TrialProgress::start(done as u64, total as u64, work);
-    let result = workers::run(&jobs, threads, stop, |event| {
-        match event {
-            Event::Generation { job } => progress.advance(jobs[job].setup.work_of_a_generation()),
-            Event::Done { job, trial } => {
-                let Job { setup, seed } = jobs[job];
-                trial.write(setup, folder)?;
-                done += 1;
-                progress.trial(output, finish::brief(setup, seed, &trial));
-                let (setup, seed) = missing[job];
-                all[setup][seed] = Some(trial);
-            }
-        }
-        Ok(())
-    });
-    progress.finish();
-    result?;
-    let whole: Option<Vec<Vec<Trial>>> =
-        all.into_iter().map(|trials| trials.into_iter().collect()).collect();
-    whole.ok_or_else(|| {
-        // Only a signal leaves a trial undone.
-        let signal = stop.requested().unwrap_or_default();
-        let message =
-            format!("stopped after {done} of {}, each kept", counted(total as u64, "trial"));
-        Failure::new(FailureKind::Interrupted { signal }, message)
-    })
 }

@@ -131,7 +131,7 @@ mod interrupted {
     use std::time::{Duration, Instant};
 
     /// Seconds of work, in many trials.
-    const LONG: &str = "--seeds 40 --generations 20 --population 60 --pairs 20 --methods paper";
+    const LONG: &str = "--seeds 12 --generations 10 --population 40 --pairs 20 --methods paper";
 
     #[test]
     fn ctrl_c_and_sigterm_keep_what_is_done_and_say_how_to_go_on() {
@@ -151,7 +151,7 @@ mod interrupted {
             assert!(Command::new("kill").args(arguments).status().unwrap().success());
             let done = Done::from(child.wait_with_output().unwrap()).ends_in(code);
             assert!(
-                done.stderr.contains(" of 40 trials, each kept\ngo on with: "),
+                done.stderr.contains(" of 12 trials, each kept\ngo on with: "),
                 "{}",
                 done.stderr
             );
