@@ -6,7 +6,8 @@ use crate::report::study::Table;
 /// What the paper shows or says, and what was found.
 pub(super) fn claims(results: &SceneResults) -> Table {
     let rows = results.claims.iter().map(|claim| {
-        vec![claim.place.to_owned(), format!("“{}”", claim.paper), claim.here.clone()]
+        let place = claim.place.replace(' ', "\u{a0}");
+        vec![place, format!("“{}”", claim.paper), claim.here.clone()]
     });
     Table {
         columns: vec![("", false), ("The paper", false), ("Here", false)],
