@@ -2,6 +2,7 @@
 
 pub mod shipped;
 
+use crate::evolve::Cost;
 use crate::fingerprint;
 use crate::problem::Problem;
 use crate::seed::{Purpose, RunSeed};
@@ -25,6 +26,12 @@ pub fn to_blob(problem: &Problem, seed: RunSeed, best: &Best) -> Result<Vec<u8>,
     let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut words);
     let length = blob::encode(&header, &best.genome, &self_tests, bytes)?;
     Ok(bytes[..length].to_vec())
+}
+
+/// The header of a champion that this problem's training would give: its car and its network.
+pub(crate) fn car(problem: &Problem) -> Header {
+    let best = Best { genome: Vec::new(), cost: Cost::new(0.0), generation: 0 };
+    header(problem, RunSeed(0), &best)
 }
 
 fn header(problem: &Problem, seed: RunSeed, best: &Best) -> Header {

@@ -1,6 +1,8 @@
 //! The command line: what was typed, and the exit code it ends in.
 
-use crate::commands::{bench, demo, evaluate, export, inspect, replay, scenario, train, verify};
+use crate::commands::{
+    bench, demo, evaluate, export, inspect, replay, reproduce, scenario, train, verify,
+};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::signals::{self, StopFlag};
@@ -21,6 +23,7 @@ pub struct Cli {
 enum Command {
     Train(train::TrainArgs),
     Evaluate(evaluate::EvaluateArgs),
+    Reproduce(reproduce::ReproduceArgs),
     Replay(replay::ReplayArgs),
     Demo(demo::DemoArgs),
     Scenario(scenario::ScenarioArgs),
@@ -35,6 +38,7 @@ impl Command {
         match self {
             Self::Train(args) => args.json,
             Self::Evaluate(args) => args.json,
+            Self::Reproduce(args) => args.json,
             Self::Replay(args) => args.json,
             Self::Demo(args) => args.json,
             Self::Scenario(args) => args.wants_json(),
@@ -49,8 +53,9 @@ impl Command {
         signals::survive_a_full_file()?;
         Instructions::choose()?;
         match self {
-            // Only training has something to save when it is asked to stop.
+            // Only what trains has something to save when it is asked to stop.
             Self::Train(args) => train::run(args, &StopFlag::install()?, output),
+            Self::Reproduce(args) => reproduce::run(args, &StopFlag::install()?, output),
             Self::Evaluate(args) => evaluate::run(args, output),
             Self::Replay(args) => replay::run(args, output),
             Self::Demo(args) => demo::run(args, output),

@@ -10,6 +10,7 @@ mod film;
 pub mod inspect;
 mod number;
 pub mod replay;
+pub mod reproduce;
 pub mod scenario;
 mod setup;
 pub mod train;

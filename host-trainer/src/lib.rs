@@ -24,6 +24,7 @@ pub mod pairs;
 pub mod picture;
 pub mod problem;
 pub mod report;
+pub mod reproduce;
 pub mod run_folder;
 pub mod scenario;
 pub mod seed;

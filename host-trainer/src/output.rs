@@ -14,6 +14,7 @@
 mod page;
 pub mod progress;
 mod stream;
+mod trials;
 
 use std::fmt::Display;
 use std::io::{IsTerminal, Write};
@@ -24,6 +25,7 @@ use serde::Serialize;
 pub(crate) use page::Page;
 pub use progress::Progress;
 use stream::Stream;
+pub use trials::TrialProgress;
 
 use crate::failure::{Failure, FailureKind};
 

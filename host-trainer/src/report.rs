@@ -12,6 +12,7 @@
 //! | [`map`] | the world as an SVG file, to scale |
 //! | [`stress`] | what each disturbance costs, over its size |
 //! | [`page`] | `report.html` and `replay.html`, which open without a network |
+//! | [`study`] | what a report over many runs is made from |
 
 pub mod data;
 pub mod loops;
@@ -19,6 +20,7 @@ pub mod map;
 pub mod page;
 pub mod plots;
 pub mod stress;
+pub mod study;
 
 mod palette;
 mod svg;

@@ -35,6 +35,8 @@ pub struct RunFolder {
 impl RunFolder {
     /// What the run is.
     pub const MANIFEST: &'static str = "manifest.toml";
+    /// What a reproduction is, in its place.
+    pub const REPRODUCTION: &'static str = "reproduction.toml";
     /// One row per generation.
     pub const METRICS: &'static str = "metrics.csv";
     /// Wall-clock speed per generation.
@@ -115,9 +117,23 @@ impl RunFolder {
     /// Busy when another process is using it; bad input when it is not a run's folder;
     /// input/output when it cannot be written to.
     pub fn resume(path: &Path) -> Result<Self, Failure> {
+        Self::take_up(path, Self::MANIFEST, "train")
+    }
+
+    /// Takes up the reproduction in `path`.
+    ///
+    /// # Errors
+    ///
+    /// As [`RunFolder::resume`].
+    pub fn resume_reproduction(path: &Path) -> Result<Self, Failure> {
+        Self::take_up(path, Self::REPRODUCTION, "reproduce")
+    }
+
+    /// Takes up what `verb` has begun, which says what it is in the file `begun_by`.
+    fn take_up(path: &Path, begun_by: &str, verb: &str) -> Result<Self, Failure> {
         let not_a_run = |why: &str| {
             Failure::bad_input(format!(
-                "--resume: {} {why}; expected a folder that `evosteer train` has made",
+                "--resume: {} {why}; expected a folder that `evosteer {verb}` has made",
                 path.display()
             ))
         };
@@ -129,14 +145,14 @@ impl RunFolder {
             }
             Err(cause) => return Err(Failure::io("open the folder", path, &cause)),
         }
-        let has_manifest = || path.join(Self::MANIFEST).is_file();
+        let has_manifest = || path.join(begun_by).is_file();
         // A run that is just starting has a lock and no manifest yet: it is busy.
         if !has_manifest() && !path.join(Self::LOCK).exists() {
-            return Err(not_a_run("has no manifest.toml"));
+            return Err(not_a_run(&format!("has no {begun_by}")));
         }
         let folder = Self::lock(path)?;
         if !has_manifest() {
-            return Err(not_a_run("has no manifest.toml"));
+            return Err(not_a_run(&format!("has no {begun_by}")));
         }
         Ok(folder)
     }
@@ -216,7 +232,8 @@ fn refuse_used(path: &Path) -> Result<(), Failure> {
         if name == RunFolder::LOCK || files::is_temporary(&name) {
             continue;
         }
-        let advice = if path.join(RunFolder::MANIFEST).exists() {
+        let begun_by = [RunFolder::MANIFEST, RunFolder::REPRODUCTION];
+        let advice = if begun_by.iter().any(|name| path.join(name).exists()) {
             format!(
                 "is a run already and is not overwritten; go on with it by --resume {}, or give another --out",
                 path.display()

@@ -7,6 +7,9 @@
 mod embed;
 mod outcomes;
 mod settings;
+mod study;
+
+pub use study::render_study;
 
 use super::data::ReportData;
 use super::{map, palette, plots, svg::escape};

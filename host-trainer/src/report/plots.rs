@@ -2,6 +2,8 @@
 //!
 //! The only module that knows kuva.
 
+mod seeds;
+
 use kuva::backend::svg::SvgBackend;
 use kuva::prelude::{
     Figure, Layout, LegendPosition, LinePlot, Plot, ScatterPlot, Theme, TickFormat,
@@ -13,6 +15,7 @@ use super::palette::{BAND, COLLISION, GOAL, INK, LOOP, MUTED, PAPER, PATH, RULE}
 use super::svg::escape;
 
 pub use super::map::trajectory_svg;
+pub use seeds::{Band, Line, SeedPanel, Strip, seeds_svg, strips_svg};
 
 /// Pixels of one panel.
 const PANEL: (f64, f64) = (460.0, 300.0);
@@ -104,15 +107,19 @@ fn panel(
         })
         .collect();
     let last = f64::from(history.iter().map(|g| g.number).max().unwrap_or(0).max(1));
-    let (generations, _) = tick_step(last);
     let values = curves.iter().flat_map(|curve| history.iter().map(curve.value));
     let y = Axis::over(values.filter(|value| value.is_finite()).chain(floor));
-    let mut layout = Layout::auto_from_plots(&plots);
+    let layout = layout(&plots, title, unit, last, &y);
+    (plots, layout)
+}
+
+/// Generations to the right, up to `last`, and the vertical axis.
+fn layout(plots: &[Plot], title: &str, unit: &str, last: f64, y: &Axis) -> Layout {
+    let (generations, _) = tick_step(last);
+    let mut layout = Layout::auto_from_plots(plots);
     // kuva measures the labels on this range.
     layout.y_range = (y.low, y.high);
-    let layout = layout
-        .with_theme(theme())
-        .with_title(title)
+    lettered(layout, title)
         .with_x_label("generation")
         .with_y_label(unit)
         .with_x_axis_min(0.0)
@@ -124,12 +131,18 @@ fn panel(
         .with_y_tick_step(y.step)
         .with_y_tick_format(TickFormat::Fixed(y.decimals))
         .with_legend_position(LegendPosition::OutsideRightTop)
+}
+
+/// Colours and letters that all panels share.
+fn lettered(layout: Layout, title: &str) -> Layout {
+    layout
+        .with_theme(theme())
+        .with_title(title)
         .with_font_family(FONTS)
         .with_title_size(15)
         .with_label_size(12)
         .with_tick_size(11)
-        .with_body_size(12);
-    (plots, layout)
+        .with_body_size(12)
 }
 
 /// A vertical axis from one tick to another.

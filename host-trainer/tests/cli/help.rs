@@ -2,8 +2,18 @@
 
 use super::bench::Bench;
 
-const VERBS: [&str; 9] =
-    ["train", "evaluate", "replay", "demo", "scenario", "export", "inspect", "verify", "bench"];
+const VERBS: [&str; 10] = [
+    "train",
+    "evaluate",
+    "reproduce",
+    "replay",
+    "demo",
+    "scenario",
+    "export",
+    "inspect",
+    "verify",
+    "bench",
+];
 
 #[test]
 fn every_help_text_reads_as_its_snapshot() {

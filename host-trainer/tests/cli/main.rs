@@ -7,6 +7,7 @@ mod interruptions;
 mod machines;
 mod next_steps;
 mod refusals;
+mod reproduce;
 mod run_folders;
 mod same_seed;
 mod speed;

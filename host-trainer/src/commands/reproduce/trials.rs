@@ -1,0 +1,80 @@
+//! The trials of a reproduction: what is kept already, and the rest.
+
+use super::finish;
+use crate::commands::advice::counted;
+use crate::failure::{Failure, FailureKind};
+use crate::output::{Output, TrialProgress};
+use crate::reproduce::workers::{self, Event, Job};
+use crate::reproduce::{Plan, Setup, Trial};
+use crate::run_folder::RunFolder;
+use crate::seed::RunSeed;
+use crate::signals::StopFlag;
+
+/// Every trial, read or done: one list per setup, by seed.
+///
+/// # Errors
+///
+/// A trial that cannot be read or kept; a signal.
+pub(super) fn all(
+    folder: &RunFolder,
+    plan: &Plan,
+    setups: &[Setup],
+    threads: usize,
+    stop: &StopFlag,
+    output: &mut Output,
+) -> Result<Vec<Vec<Trial>>, Failure> {
+    let mut all: Vec<Vec<Option<Trial>>> = Vec::new();
+    for setup in setups {
+        all.push(
+            plan.seeds().map(|seed| Trial::read(setup, seed, folder)).collect::<Result<_, _>>()?,
+        );
+    }
+    let seeds: Vec<RunSeed> = plan.seeds().collect();
+    let places =
+        (0..setups.len()).flat_map(|setup| (0..seeds.len()).map(move |seed| (setup, seed)));
+    let missing: Vec<(usize, usize)> =
+        places.filter(|(setup, seed)| all[*setup][*seed].is_none()).collect();
+    let jobs: Vec<Job<'_>> = missing
+        .iter()
+        .map(|(setup, seed)| Job { setup: &setups[*setup], seed: seeds[*seed] })
+        .collect();
+    let total = setups.len() * seeds.len();
+    let mut done = total - jobs.len();
+    output.status(format_args!(
+        "{}: {}, {}, {}, {} ({done} done), {}, in {}",
+        plan.scenes.iter().map(|scene| scene.name()).collect::<Vec<_>>().join(", "),
+        counted(plan.methods.len() as u64, "method"),
+        counted(plan.seeds, "seed"),
+        counted(plan.pairs, "unseen pair"),
+        counted(total as u64, "trial"),
+        counted(threads as u64, "thread"),
+        folder.path().display()
+    ));
+    let work = jobs.iter().map(|job| job.setup.work()).sum();
+    let mut progress = TrialProgress::start(done as u64, total as u64, work);
+    let result = workers::run(&jobs, threads, stop, |event| {
+        match event {
+            Event::Generation { job } => progress.advance(jobs[job].setup.work_of_a_generation()),
+            Event::Done { job, trial } => {
+                let Job { setup, seed } = jobs[job];
+                trial.write(setup, folder)?;
+                done += 1;
+                progress.trial(output, finish::brief(setup, seed, &trial));
+                let (setup, seed) = missing[job];
+                all[setup][seed] = Some(trial);
+            }
+        }
+        Ok(())
+    });
+    progress.finish();
+    result?;
+    let whole: Option<Vec<Vec<Trial>>> =
+        all.into_iter().map(|trials| trials.into_iter().collect()).collect();
+    whole.ok_or_else(|| {
+        // Only a signal leaves a trial undone.
+        let signal = stop.requested().unwrap_or_default();
+        let message =
+            format!("stopped after {done} of {}, each kept", counted(total as u64, "trial"));
+        Failure::new(FailureKind::Interrupted { signal }, message)
+    })
+}
