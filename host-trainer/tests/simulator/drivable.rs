@@ -26,7 +26,8 @@ fn complaint(problem: &Problem, pair: &Pair, path: &Path) -> Option<String> {
     let [x, y, heading] = pair.start;
     let random = evaluation_drive(RunSeed(1), 0);
     let start = Pose::new(x, y, heading);
-    let mut car = SimulatedCar::new(&problem.world, &model, start, pair.goal, random);
+    let lookout = model.lookout(&problem.world);
+    let mut car = SimulatedCar::new(&problem.world, &lookout, &model, start, pair.goal, random);
     let step = StepLength::from_metres(problem.scaling().step_upper);
     for (period, steer) in path.steers.iter().enumerate() {
         if car.reached {
