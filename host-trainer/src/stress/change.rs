@@ -24,7 +24,7 @@ impl Change {
     /// // Of 100 drives 70 count both times, 8 only before and 2 only now.
     /// let drives = (0..100).map(|i| (i < 78, i < 70 || i >= 98));
     /// let Change { by, interval: [low, high] } = Change::between(drives);
-    /// assert_eq!(format!("{by:.2}, {low:.4} to {high:.4}"), "-0.06, -0.1208 to 0.0032");
+    /// assert_eq!(format!("{by:.2}, {low:.4} to {high:.4}"), "-0.06, -0.1215 to 0.0039");
     /// ```
     pub fn between(drives: impl Iterator<Item = (bool, bool)>) -> Self {
         const Z: f64 = 1.959_963_984_540_054;
