@@ -68,58 +68,57 @@ pub struct End {
     pub echoes: [Echo; BEAMS],
 }
 
+/// What all drives of a scenario share.
+#[derive(Clone, Copy, Debug)]
+pub struct Stage<'a> {
+    /// The obstacles.
+    pub world: &'a World,
+    /// The same as this car sees and touches them.
+    pub lookout: &'a Lookout,
+    /// The car.
+    pub model: &'a CarModel,
+    /// How a drive goes and ends.
+    pub spec: &'a EpisodeSpec,
+}
+
 /// Drives one pair.
 ///
 /// `random` belongs to this drive alone: it decides offsets, noise and the randomised vehicle.
-pub fn drive(
-    world: &World,
-    lookout: &Lookout,
-    model: &CarModel,
-    spec: &EpisodeSpec,
-    pair: &Pair,
-    brain: &mut dyn Brain,
-    random: Stream,
-) -> Outcome {
-    run(world, lookout, model, spec, pair, brain, random, |_, _, _, _| ())
+pub fn drive(stage: Stage<'_>, pair: &Pair, brain: &mut dyn Brain, random: Stream) -> Outcome {
+    run(stage, pair, brain, random, |_, _, _, _| ())
 }
 
 /// The same drive, remembered step by step.
 pub fn drive_traced(
-    world: &World,
-    lookout: &Lookout,
-    model: &CarModel,
-    spec: &EpisodeSpec,
+    stage: Stage<'_>,
     pair: &Pair,
     brain: &mut dyn Brain,
     random: Stream,
 ) -> (Outcome, Trace) {
     let mut steps = Vec::new();
     let mut end = None;
-    let outcome =
-        run(world, lookout, model, spec, pair, brain, random, |pose, car, command, brain| {
-            steps.push(Step {
-                pose,
-                echoes: car.reported,
-                command,
-                done: car.done,
-                hidden: brain.hidden(),
-                collided: car.collided,
-            });
-            end = Some(End { pose: *car.pose(), echoes: car.echoes() });
+    let outcome = run(stage, pair, brain, random, |pose, car, command, brain| {
+        steps.push(Step {
+            pose,
+            echoes: car.reported,
+            command,
+            done: car.done,
+            hidden: brain.hidden(),
+            collided: car.collided,
         });
+        end = Some(End { pose: *car.pose(), echoes: car.echoes() });
+    });
     (outcome, Trace { steps, end })
 }
 
 fn run(
-    world: &World,
-    lookout: &Lookout,
-    model: &CarModel,
-    spec: &EpisodeSpec,
+    stage: Stage<'_>,
     pair: &Pair,
     brain: &mut dyn Brain,
     mut random: Stream,
     mut remember: impl FnMut(Pose<f32>, &SimulatedCar<'_>, Command, &dyn Brain),
 ) -> Outcome {
+    let Stage { world, lookout, model, spec } = stage;
     let start = start_pose(world, model, spec, pair, &mut random);
     let mut car = SimulatedCar::new(world, lookout, model, start, pair.goal, random);
     brain.reset();

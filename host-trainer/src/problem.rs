@@ -3,7 +3,7 @@
 use crate::brain::{self, Brain, NotBuiltIn};
 use crate::car::{CarModel, scaling_of};
 use crate::disturbances::Disturbances;
-use crate::episode::{self, Outcome, Trace};
+use crate::episode::{self, Outcome, Stage, Trace};
 use crate::failure::Failure;
 use crate::pairs::PairSampler;
 use crate::scenario::{Pair, Scenario, StepLength, words_of};
@@ -110,10 +110,8 @@ impl Problem {
         pairs: &[Pair],
         place: impl Fn(u32) -> Stream,
     ) -> Vec<Outcome> {
-        let drive = |(index, pair): (u32, &Pair)| {
-            let spec = &self.scenario.episode;
-            episode::drive(&self.world, &self.lookout, &self.model, spec, pair, brain, place(index))
-        };
+        let stage = self.stage();
+        let drive = |(index, pair): (u32, &Pair)| episode::drive(stage, pair, brain, place(index));
         (0..).zip(pairs).map(drive).collect()
     }
 
@@ -124,8 +122,12 @@ impl Problem {
         pair: &Pair,
         random: Stream,
     ) -> (Outcome, Trace) {
-        let spec = &self.scenario.episode;
-        episode::drive_traced(&self.world, &self.lookout, &self.model, spec, pair, brain, random)
+        episode::drive_traced(self.stage(), pair, brain, random)
+    }
+
+    fn stage(&self) -> Stage<'_> {
+        let Self { world, lookout, model, scenario, .. } = self;
+        Stage { world, lookout, model, spec: &scenario.episode }
     }
 
     /// Whether the same genome always costs the same: nothing about a drive is random and every

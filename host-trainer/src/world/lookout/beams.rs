@@ -67,7 +67,7 @@ impl<V: Vector> Beams<V> {
     /// minimum takes.
     #[inline(always)]
     pub(super) fn wall(&mut self, [x, y, ex, ey]: [V; 4]) {
-        let (distance, inside) = self.to_wall([x, y, ex, ey]);
+        let (distance, inside) = self.wall_ahead([x, y, ex, ey]);
         self.near = distance.min(self.near);
         self.past = inside.abs().min(self.past);
     }
@@ -76,7 +76,7 @@ impl<V: Vector> Beams<V> {
     #[inline(always)]
     pub(super) fn any(&mut self, row: [V; 4]) {
         let is_disc = are_discs(&row);
-        let (distance, inside) = self.to_wall(row);
+        let (distance, inside) = self.wall_ahead(row);
         let disc = Disc { centre: (row[0], row[1]), radius: row[2] };
         let infinity = V::from(f32::INFINITY);
         let distance = V::select(is_disc, self.ray.to_disc(&disc), distance);
@@ -88,7 +88,7 @@ impl<V: Vector> Beams<V> {
     /// Distance to a wall, and how far inside of its nearer end the beam's line passes, metres;
     /// negative outside.
     #[inline(always)]
-    fn to_wall(&self, [x, y, ex, ey]: [V; 4]) -> (V, V) {
+    fn wall_ahead(&self, [x, y, ex, ey]: [V; 4]) -> (V, V) {
         let zero = V::from(0.0);
         let (dx, dy) = self.ray.direction;
         let wx = x - self.ray.origin.0;
