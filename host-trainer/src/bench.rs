@@ -9,7 +9,7 @@
 //! | [`workload`] | the scenario, and the population that every simulator starts from |
 //! | [`golden`] | 256 single steps that another program computed in 64 bits |
 //! | [`speed`] | steps per second, and the time of a paper-size run |
-//! | [`reference`] | the same steps with parry2d's beams and contacts |
+//! | [`mod@reference`] | the same steps with parry2d's beams and contacts |
 //! | [`parts`] | beams, contacts and networks, each by itself |
 //! | [`operations`] | how much arithmetic a step is |
 
