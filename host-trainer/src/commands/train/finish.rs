@@ -77,7 +77,7 @@ pub(super) fn finish(
         .map_err(|error| Failure::bad_input(format!("the champion cannot be written: {error}")))?;
     folder.write(RunFolder::CHAMPION, &bytes)?;
 
-    let pairs = training.pairs(best.generation)?;
+    let pairs = training.pairs_of(best)?;
     let place = |drive| training_drive(seed, best.generation, drive);
     let unseen = PairSampler::new(&problem.world, &problem.scenario)
         .unseen(seed, UNSEEN_PAIRS)
