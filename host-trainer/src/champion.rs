@@ -30,7 +30,7 @@ pub fn to_blob(problem: &Problem, seed: RunSeed, best: &Best) -> Result<Vec<u8>,
 
 /// The header of a champion that this problem's training would give: its car and its network.
 pub(crate) fn car(problem: &Problem) -> Header {
-    let best = Best { genome: Vec::new(), cost: Cost::new(0.0), generation: 0 };
+    let best = Best { genome: Vec::new(), cost: Cost::new(0.0), generation: 0, kept: Vec::new() };
     header(problem, RunSeed(0), &best)
 }
 

@@ -25,7 +25,7 @@ pub use slots::{Checkpoints, Loaded};
 pub const MAGIC: [u8; 8] = *b"EVOCKPT\0";
 
 /// Version of the container and of the state in it; a change of either raises it.
-pub const VERSION: u16 = 1;
+pub const VERSION: u16 = 2;
 
 const HEADER: usize = 26;
 const CHECK: usize = 8;

@@ -18,7 +18,7 @@ pub mod state;
 
 use crate::seed::RunSeed;
 use ga::settings::require;
-use ga::{Ga, GaSpec, Mutation, Selection, SettingError};
+use ga::{Ga, GaSpec, Initial, Mutation, Outlook, Selection, SettingError};
 
 pub use cost::{Cost, best_index, ranking};
 pub use population::Population;
@@ -113,6 +113,22 @@ pub fn all(space: SearchSpace, seed: RunSeed) -> Result<Vec<Named>, SettingError
         }),
         ("truncation, gaussian", {
             ga(GaSpec { selection: truncation, mutation: gaussian, ..paper })?
+        }),
+        ("every gene, annealed", {
+            let spec = GaSpec {
+                crossover_share: 0.0,
+                mutation_share: 0.99,
+                ranking_share: 0.01,
+                random_share: 0.0,
+                selection: Selection::Truncation { share: 0.15 },
+                mutation: Mutation::EveryGene { sigma: 0.1 * space.bound },
+                sigma_end: Some(0.001 * space.bound),
+                initial: Initial::Gaussian { sigma: 0.5 * space.bound },
+                fan_in: true,
+                ..paper
+            };
+            let scales = (0..space.genome_len).map(|gene| 0.5 + (gene % 2) as f32).collect();
+            Box::new(Ga::with_outlook(space, spec, Outlook { generations: 200, scales }, seed)?)
         }),
     ])
 }

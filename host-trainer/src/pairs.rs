@@ -6,7 +6,8 @@
 //! by `world.min_m` and `world.max_m`.)
 
 use crate::car::body_of;
-use crate::scenario::{Pair, PairSource, Scenario};
+use crate::evolve::ga::{between, progress};
+use crate::scenario::{Pair, PairSource, PairSpec, Scenario};
 use crate::seed::{Purpose, RunSeed, Stream};
 use crate::world::free_space::FreeSpace;
 use crate::world::{World, distance};
@@ -70,7 +71,7 @@ impl<'a> PairSampler<'a> {
         FreeSpace::new(world, body.half_width.min(half_length))
     }
 
-    /// The pairs that training drives in this generation.
+    /// The pairs that training drives in this generation, none of them kept from the one before.
     ///
     /// # Errors
     ///
@@ -81,13 +82,44 @@ impl<'a> PairSampler<'a> {
         seed: RunSeed,
         generation: u32,
     ) -> Result<Vec<Pair>, NoPair> {
+        self.training_beside(&[], scenario, seed, generation)
+    }
+
+    /// The same with pairs that were kept: they take the places of the last ones.
+    ///
+    /// # Errors
+    ///
+    /// A world in which no pair is found.
+    pub fn training_beside(
+        &self,
+        kept: &[Pair],
+        scenario: &Scenario,
+        seed: RunSeed,
+        generation: u32,
+    ) -> Result<Vec<Pair>, NoPair> {
         match &scenario.pairs.source {
             PairSource::Listed(pairs) => Ok(pairs.clone()),
             PairSource::Drawn { count, resample } => {
+                let generations = scenario.training.generations;
+                let count = scenario.pairs.count_at(*count, progress(generation, generations));
+                let kept = &kept[..kept.len().min(count as usize)];
                 let generation = if *resample { generation } else { 0 };
-                self.draw(*count, |index| seed.stream(Purpose::TrainingPairs, generation, index))
+                let mut pairs = self.draw(count - kept.len() as u32, |index| {
+                    seed.stream(Purpose::TrainingPairs, generation, index)
+                })?;
+                pairs.extend_from_slice(kept);
+                Ok(pairs)
             }
         }
+    }
+
+    /// Pairs that choose the champion: neither trained on nor part of an evaluation.
+    ///
+    /// # Errors
+    ///
+    /// A world in which no pair is found.
+    pub fn validation(&self, seed: RunSeed, count: u32) -> Result<Vec<Pair>, NoPair> {
+        self.draw(count, |index| seed.stream(Purpose::ValidationPairs, 0, index))
     }
 
     /// Pairs that no training has ever seen: their random numbers serve no other purpose.
@@ -126,5 +158,30 @@ impl<'a> PairSampler<'a> {
             }
         }
         Err(NoPair { min_distance: self.min_distance, tries: TRIES })
+    }
+}
+
+impl PairSpec {
+    /// How many pairs are drawn `progress`, 0 to 1, of the way from the first generation, which
+    /// has `count`, to the last.
+    fn count_at(&self, count: u32, progress: f64) -> u32 {
+        let Some(end) = self.count_end else { return count };
+        between(count.into(), end.into(), progress).round() as u32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_number_of_pairs_grows_by_equal_ratios_to_the_last_generation() {
+        let spec =
+            |count_end| PairSpec { count_end, ..crate::scenario::Preset::Paper.scenario().pairs };
+        let counts = |spec: PairSpec| [0.0, 0.25, 0.5, 1.0].map(|at| spec.count_at(16, at));
+        assert_eq!(counts(spec(None)), [16; 4]);
+        // Four times as many in all, twice as many half way, the square root of that before.
+        assert_eq!(counts(spec(Some(64))), [16, 23, 32, 64]);
+        assert_eq!(counts(spec(Some(1))), [16, 8, 4, 1]);
     }
 }

@@ -155,6 +155,11 @@ pub fn evaluation_drive(seed: RunSeed, index: u32) -> Stream {
     seed.stream(Purpose::EvaluationDrive, 0, index)
 }
 
+/// The random numbers of drive `index` of those that choose the champion.
+pub fn validation_drive(seed: RunSeed, index: u32) -> Stream {
+    seed.stream(Purpose::ValidationDrive, 0, index)
+}
+
 /// The scenario's network.
 pub fn topology_of(scenario: &Scenario) -> Topology {
     let outputs = match scenario.vehicle.step {

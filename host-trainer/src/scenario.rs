@@ -10,7 +10,7 @@
 //! | [`find`], [`load`] | from a name or a path to a scenario, or all that is wrong with it |
 //! | [`Setting`], [`Preset`] | what goes over and under a file |
 //! | [`refuse`], [`Complaint`] | what a simulator finds wrong, printed with its place in the file |
-//! | [`to_toml`], [`to_toml_beside`] | back to a file, in full or what differs from a preset |
+//! | [`to_toml`], [`to_toml_beside_paper`] | back to a file, in full or what differs from the paper |
 //! | [`generate`] | random worlds |
 //! | `schema` | every key with its range: the list that reader, writer and README share |
 //! | `check`, `polygon` | what must hold between keys |
@@ -43,7 +43,7 @@ use controller_core::observation::{BEAMS, BeamMount, Encoding};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
-pub use crate::evolve::ga::{GaSpec, Mutation, Selection};
+pub use crate::evolve::ga::{GaSpec, Initial, Mutation, Selection};
 pub use catalogue::{all_shipped, find};
 pub use keys::{Key, all_keys};
 pub use load::{Setting, load, refuse};
@@ -52,7 +52,7 @@ pub use problem::Complaint;
 pub use shipped::Entry;
 pub use source::Source;
 pub use words::words_of;
-pub use writer::{to_toml, to_toml_beside};
+pub use writer::{to_toml, to_toml_beside_paper};
 
 /// Longest name of a scenario, bytes.
 const NAME_LENGTH: usize = 64;
@@ -77,7 +77,7 @@ pub struct Scenario {
     pub network: NetworkSpec,
     /// How one drive goes and ends.
     pub episode: EpisodeSpec,
-    /// What one drive costs (paper, eq. 3).
+    /// What drives cost.
     pub fitness: FitnessSpec,
     /// The start poses and goals that training drives.
     pub pairs: PairSpec,
@@ -281,9 +281,11 @@ pub struct RandomiseSpec {
     pub steer_offset: f32,
 }
 
-/// Weights of `F = c1·DTT + c2·LT + c3·C − B·[reached]`, minimised (paper, eq. 3).
+/// What drives cost, minimised.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FitnessSpec {
+    /// Which of the following weights count.
+    pub kind: FitnessKind,
     /// c1: per metre between robot and target at the end.
     pub distance: f32,
     /// c2: per metre driven.
@@ -292,6 +294,20 @@ pub struct FitnessSpec {
     pub collision: f32,
     /// B: taken off when the target is reached.
     pub bonus: f32,
+    /// What a clean drive costs that takes all of its time, `0.0..=0.5`.
+    pub time: f32,
+    /// What another drive saves that ends in the middle of the target, `0.0..=0.5`.
+    pub progress: f32,
+}
+
+/// Which cost it is; [`crate::fitness`] says what each one is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FitnessKind {
+    /// `F = c1·DTT + c2·LT + c3·C − B·[reached]` (paper, eq. 3).
+    Paper,
+    /// Reaching clean comes first, then time or nearness.
+    ReachedFirst,
 }
 
 /// The start poses and goals that training drives.
@@ -301,6 +317,12 @@ pub struct PairSpec {
     pub source: PairSource,
     /// Smallest distance between start and goal of a drawn pair, metres.
     pub min_distance: f32,
+    /// How many are drawn in the last generation, reached by equal ratios; none keeps the number.
+    /// None for pairs that are not drawn anew.
+    pub count_end: Option<u32>,
+    /// Share of a generation's pairs that the next one keeps: those that the fewest individuals
+    /// drove clean, but some did. 0 for pairs that are not drawn anew.
+    pub mine: f32,
 }
 
 impl PairSpec {
@@ -348,6 +370,9 @@ pub struct TrainingSpec {
     pub generations: u32,
     /// Weights are drawn in, and kept in, `-bound..=bound`.
     pub weight_bound: f32,
+    /// Pairs, drawn for this alone, on which the best of each generation compete to be the
+    /// champion; 0 takes the best of the last generation. No matter for listed pairs.
+    pub validation_pairs: u32,
     /// The genetic algorithm.
     pub ga: GaSpec,
 }

@@ -52,11 +52,15 @@ pub enum Purpose {
     SelfTest = 7,
     /// Noise, offsets and randomised vehicles of an evaluation's drives; index: pair.
     EvaluationDrive = 8,
+    /// Start/goal pairs that choose the champion; index: pair.
+    ValidationPairs = 9,
+    /// Noise, offsets and randomised vehicles of the drives that choose the champion; index: pair.
+    ValidationDrive = 10,
 }
 
 impl Purpose {
     /// Every purpose, by number.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::InitialPopulation,
         Self::Breeding,
         Self::TrainingPairs,
@@ -65,6 +69,8 @@ impl Purpose {
         Self::GeneratedWorld,
         Self::SelfTest,
         Self::EvaluationDrive,
+        Self::ValidationPairs,
+        Self::ValidationDrive,
     ];
 }
 

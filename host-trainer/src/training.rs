@@ -1,14 +1,25 @@
 //! The training loop: ask for genomes, drive them, tell their costs. The only place that
 //! joins evolution and driving.
+//!
+//! | look in | for |
+//! | --- | --- |
+//! | `scales` | how large each weight of a network is, typically |
+//! | `hard` | which pairs the next generation keeps |
+//! | `row` | what the metrics say of a generation |
+
+mod hard;
+mod row;
+mod scales;
 
 use crate::episode::Outcome;
-use crate::evolve::ga::Ga;
+use crate::evaluation;
+use crate::evolve::ga::{Ga, Outlook};
 use crate::evolve::{Cost, Optimizer, Population, RestoreError, SearchSpace, State, best_index};
 use crate::failure::Failure;
 use crate::fingerprint;
 use crate::fitness;
-use crate::pairs::PairSampler;
-use crate::problem::{Problem, topology_of, training_drive};
+use crate::pairs::{NoPair, PairSampler};
+use crate::problem::{Problem, topology_of, training_drive, validation_drive};
 use crate::run_folder::MetricsRow;
 use crate::scenario::{Complaint, Pair, PairSource, Scenario, TrainingSpec};
 use crate::seed::RunSeed;
@@ -24,10 +35,12 @@ use std::fmt;
 pub struct Best {
     /// Its genome.
     pub genome: Vec<f32>,
-    /// Its cost in the generation it was found in.
+    /// Its cost on the validation pairs; without these, in the generation it was found in.
     pub cost: Cost,
     /// That generation, from 0.
     pub generation: u32,
+    /// The pairs which that generation had kept from the one before.
+    pub kept: Vec<Pair>,
 }
 
 /// Everything that training needs to go on, bit for bit.
@@ -37,10 +50,11 @@ pub struct Snapshot {
     search: State,
     history: Vec<MetricsRow>,
     best: Option<Best>,
+    kept: Vec<Pair>,
 }
 
-/// What a run is: SHA-256 of its seed and its scenario, whose number of generations does not
-/// count.
+/// What a run is: SHA-256 of its seed and its scenario, whose number of generations counts only
+/// where it [matters](depends_on_generations).
 type RunId = [u8; 32];
 
 /// Why a saved state is not gone on from.
@@ -82,6 +96,10 @@ pub struct Training<'a> {
     search: Box<dyn Optimizer>,
     history: Vec<MetricsRow>,
     best: Option<Best>,
+    /// Pairs that the current generation keeps from the one before.
+    kept: Vec<Pair>,
+    /// Pairs that choose the champion; none if the last generation's best is it.
+    validation: Vec<Pair>,
 }
 
 impl<'a> Training<'a> {
@@ -89,7 +107,7 @@ impl<'a> Training<'a> {
     ///
     /// # Errors
     ///
-    /// Settings of the search that make no sense.
+    /// Settings of the search that make no sense, or a world in which no pair is found.
     pub fn new(problem: &'a Problem, seed: RunSeed) -> Result<Self, Failure> {
         let spec = &problem.scenario.training;
         let space = SearchSpace {
@@ -97,18 +115,27 @@ impl<'a> Training<'a> {
             genome_len: problem.topology().weights(),
             bound: spec.weight_bound,
         };
-        let search = Ga::new(space, spec.ga, seed)
+        let scales = scales::scales(problem.topology());
+        let outlook = Outlook { generations: spec.generations, scales };
+        let search = Ga::with_outlook(space, spec.ga, outlook, seed)
             .map_err(|error| Failure::bad_input(format!("training: {error}")))?;
         let sampler = problem.sampler();
+        let validation = match problem.scenario.pairs.source {
+            PairSource::Drawn { .. } => sampler.validation(seed, spec.validation_pairs),
+            PairSource::Listed(_) => Ok(Vec::new()),
+        };
+        let validation = validation.map_err(|none| no_pair(problem, none))?;
         let search: Box<dyn Optimizer> = Box::new(search);
         let run = run_id(&problem.scenario, seed);
-        Ok(Self { problem, run, seed, sampler, search, history: Vec::new(), best: None })
+        let (history, kept) = (Vec::new(), Vec::new());
+        Ok(Self { problem, run, seed, sampler, search, history, best: None, kept, validation })
     }
 
     /// The state to go on from.
     pub fn snapshot(&self) -> Snapshot {
-        let Self { run, search, history, best, .. } = self;
-        Snapshot { run: *run, search: search.save(), history: history.clone(), best: best.clone() }
+        let Self { run, search, history, best, kept, .. } = self;
+        let (history, best, kept) = (history.clone(), best.clone(), kept.clone());
+        Snapshot { run: *run, search: search.save(), history, best, kept }
     }
 
     /// Goes on from a saved state of the same run.
@@ -127,6 +154,7 @@ impl<'a> Training<'a> {
         }
         self.history = snapshot.history;
         self.best = snapshot.best;
+        self.kept = snapshot.kept;
         Ok(())
     }
 
@@ -141,20 +169,25 @@ impl<'a> Training<'a> {
     }
 
     /// The answer so far: the best of the last generation (the paper's "best individual of the
-    /// P"), or of all generations where the same genome always costs the same.
+    /// P"), or of all generations where the same genome always costs the same. With validation
+    /// pairs, of every generation's best the one that costs least there.
     pub fn best(&self) -> Option<&Best> {
         self.best.as_ref()
     }
 
-    /// The pairs that a generation drives.
+    /// The pairs that the generation drove in which this best individual was found.
     ///
     /// # Errors
     ///
     /// A world in which no pair is found.
-    pub fn pairs(&self, generation: u32) -> Result<Vec<Pair>, Failure> {
-        let pairs = self.sampler.training(&self.problem.scenario, self.seed, generation);
-        pairs
-            .map_err(|error| Failure::bad_input(format!("{}: {error}", self.problem.scenario.name)))
+    pub fn pairs_of(&self, best: &Best) -> Result<Vec<Pair>, Failure> {
+        self.pairs(best.generation, &best.kept)
+    }
+
+    fn pairs(&self, generation: u32, kept: &[Pair]) -> Result<Vec<Pair>, Failure> {
+        let scenario = &self.problem.scenario;
+        let pairs = self.sampler.training_beside(kept, scenario, self.seed, generation);
+        pairs.map_err(|none| no_pair(self.problem, none))
     }
 
     /// Judges the current generation on the current rayon pool and breeds the next.
@@ -174,36 +207,66 @@ impl<'a> Training<'a> {
     /// A world in which no pair is found.
     pub fn step_unless(&mut self, stop: &StopFlag) -> Result<Option<&MetricsRow>, Failure> {
         let generation = self.generation();
-        let pairs = self.pairs(generation)?;
+        let pairs = self.pairs(generation, &self.kept)?;
         let population = self.search.ask();
         let Some(drives) = judge(self.problem, self.seed, population, &pairs, generation, stop)
         else {
             return Ok(None);
         };
-        let fitness = &self.problem.scenario.fitness;
-        let costs: Vec<Cost> =
-            drives.chunks(pairs.len()).map(|drives| fitness::total(fitness, drives)).collect();
+        let scenario = &self.problem.scenario;
+        let costs: Vec<Cost> = drives
+            .chunks(pairs.len())
+            .map(|drives| fitness::total(scenario, &pairs, drives))
+            .collect();
         let best = best_index(&costs).expect("a population has at least two individuals");
-        let row = row(generation, &costs, &drives, pairs.len(), best);
-        self.keep(generation, costs[best], best);
+        let Some(cost) = self.validated(best, costs[best], stop) else { return Ok(None) };
+        let row = row::row(generation, &costs, &drives, pairs.len(), best);
+        self.keep(generation, cost, best);
+        self.kept = hard::hardest(&pairs, &drives, scenario.pairs.mine);
         self.search.tell(&costs);
         Ok(Some(self.history.push_mut(row)))
     }
 
+    /// What an individual costs on the validation pairs, or `cost` if there are none; none if
+    /// `stop` was raised meanwhile.
+    fn validated(&self, index: usize, cost: Cost, stop: &StopFlag) -> Option<Cost> {
+        if self.validation.is_empty() {
+            return Some(cost);
+        }
+        let genome = self.search.ask().genome(index);
+        let seed = self.seed;
+        let random = |pair| validation_drive(seed, pair);
+        let drives = evaluation::outcomes(self.problem, genome, &self.validation, random, stop)?;
+        Some(fitness::total(&self.problem.scenario, &self.validation, &drives))
+    }
+
     fn keep(&mut self, generation: u32, cost: Cost, index: usize) {
-        let known = self.best.as_ref().filter(|_| self.problem.is_stationary());
+        let comparable = !self.validation.is_empty() || self.problem.is_stationary();
+        let known = self.best.as_ref().filter(|_| comparable);
         if known.is_none_or(|known| cost < known.cost) {
             let genome = self.search.ask().genome(index).to_vec();
-            self.best = Some(Best { genome, cost, generation });
+            self.best = Some(Best { genome, cost, generation, kept: self.kept.clone() });
         }
     }
 }
 
 fn run_id(scenario: &Scenario, seed: RunSeed) -> RunId {
     let mut scenario = scenario.clone();
-    scenario.training.generations = *TrainingSpec::GENERATIONS.start();
+    if !depends_on_generations(&scenario) {
+        scenario.training.generations = *TrainingSpec::GENERATIONS.start();
+    }
     let scenario = fingerprint::scenario(&scenario);
     Sha256::new().chain_update(seed.0.to_le_bytes()).chain_update(scenario).finalize().into()
+}
+
+/// Whether another number of generations makes another run from its second generation on: some
+/// setting follows a plan from the first generation to the last.
+pub fn depends_on_generations(scenario: &Scenario) -> bool {
+    scenario.pairs.count_end.is_some() || scenario.training.ga.sigma_end.is_some()
+}
+
+fn no_pair(problem: &Problem, none: NoPair) -> Failure {
+    Failure::bad_input(format!("{}: {none}", problem.scenario.name))
 }
 
 /// Most weights of a population: 256 MiB, of which training holds a few copies.
@@ -225,7 +288,9 @@ pub fn too_large(scenario: &Scenario) -> Option<Complaint> {
         return Some(Complaint::new("training.population", title, detail).or_at("network.hidden"));
     }
     let pairs = match &scenario.pairs.source {
-        PairSource::Drawn { count, .. } => u64::from(*count),
+        PairSource::Drawn { count, .. } => {
+            u64::from(*count).max(scenario.pairs.count_end.unwrap_or(0).into())
+        }
         PairSource::Listed(pairs) => pairs.len() as u64,
     };
     if population * pairs > MOST_DRIVES {
@@ -233,7 +298,8 @@ pub fn too_large(scenario: &Scenario) -> Option<Complaint> {
             "found {population} individuals with {pairs} pairs each, expected at most \
              {MOST_DRIVES} drives"
         );
-        let complaint = Complaint::new("pairs.count", "a generation has too many drives", detail);
+        let complaint = Complaint::new("pairs.count", "a generation has too many drives", detail)
+            .or_at("pairs.count_end");
         return Some(complaint.or_at("training.population").or_at("pairs.list"));
     }
     None
@@ -253,45 +319,4 @@ fn judge(
     let fleet =
         Fleet { problem, genomes: population.genes(), pairs, random: &random, again: false };
     fleet.drive(Instructions::in_use(), stop).map(|drives| drives.outcomes)
-}
-
-fn row(
-    generation: u32,
-    costs: &[Cost],
-    drives: &[Outcome],
-    pairs: usize,
-    best: usize,
-) -> MetricsRow {
-    let (mut mean, mut worst) = (0.0, Cost::new(f64::MIN));
-    for cost in costs {
-        mean += cost.value() / costs.len() as f64;
-        worst = worst.max(*cost);
-    }
-    let champion = &drives[best * pairs..][..pairs];
-    let count = |drives: &[Outcome], counts: fn(&Outcome) -> bool| {
-        drives.iter().filter(|drive| counts(drive)).count()
-    };
-    let share = |n: usize, of: usize| n as f64 / of as f64;
-    let reached_by_all = count(drives, |drive| drive.reached);
-    let reached = count(champion, |drive| drive.reached);
-    let (mut distance_to_target, mut path_length) = (0.0, 0.0);
-    for drive in champion {
-        distance_to_target += f64::from(drive.distance_to_target);
-        path_length += f64::from(drive.path_length);
-    }
-    let live_steps = drives.iter().map(|drive| u64::from(drive.steps)).sum();
-    MetricsRow {
-        generation,
-        best: costs[best].value(),
-        mean,
-        worst: worst.value(),
-        collisions: champion.iter().map(|drive| u64::from(drive.collisions)).sum(),
-        distance_to_target,
-        bonus: reached as u32,
-        path_length,
-        reached: share(reached, champion.len()),
-        clean: share(count(champion, Outcome::clean), champion.len()),
-        population_reached: share(reached_by_all, drives.len()),
-        live_steps,
-    }
 }

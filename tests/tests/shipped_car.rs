@@ -128,7 +128,7 @@ fn champions_of_the_small_car_scenario_drive_the_shipped_car() {
     assert_eq!(scenario.vehicle.wheelbase, CAR.wheelbase);
     let problem = Problem::new(scenario).expect("a room without a map");
     let genome = vec![0.25; problem.topology().weights()];
-    let best = Best { genome, cost: Cost::WORST, generation: 0 };
+    let best = Best { genome, cost: Cost::WORST, generation: 0, kept: Vec::new() };
     let blob = champion::to_blob(&problem, RunSeed(1), &best).expect("good weights");
 
     let mut region = Box::new(Aligned([0xff_u8; 8192]));

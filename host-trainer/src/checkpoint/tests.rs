@@ -34,7 +34,7 @@ fn the_bytes_are_those_of_the_table_above() {
     // Put together by hand from the table; the check by a bitwise CRC-64/XZ in Python.
     let expected = [
         b"EVOCKPT\0".as_slice(),
-        &[1, 0],
+        &[2, 0],
         &[7, 0, 0, 0, 0, 0, 0, 0],
         &[11, 0, 0, 0, 0, 0, 0, 0],
         &[2, 0x00, 0x00, 0xc0, 0x3f, 0x00, 0x00, 0x80, 0xbe, 0xac, 0x02],
@@ -45,7 +45,7 @@ fn the_bytes_are_those_of_the_table_above() {
     assert_eq!(decode(&expected), Ok((7, state())));
 }
 
-const GOLDEN_CHECK: u64 = 0x892d_4068_97d7_0fbd;
+const GOLDEN_CHECK: u64 = 0x47ca_a8e6_752c_7e14;
 
 #[test]
 fn every_single_bit_flip_is_refused() {
@@ -103,8 +103,8 @@ fn each_cause_has_its_own_words() {
         said(b"PK\x03\x04 and more than thirty-four bytes"),
         r#"not a checkpoint: it begins with "PK\x03\x04 and", expected "EVOCKPT\x00""#
     );
-    assert_eq!(said(&patched(8, &[9, 0])), "checkpoint version 9, this evosteer reads version 1");
-    assert_eq!(said(&patched(8, &[0, 0])), "checkpoint version 0, this evosteer reads version 1");
+    assert_eq!(said(&patched(8, &[9, 0])), "checkpoint version 9, this evosteer reads version 2");
+    assert_eq!(said(&patched(8, &[1, 0])), "checkpoint version 1, this evosteer reads version 2");
     assert_eq!(
         said(&patched(18, &[0xff; 8])),
         "11 bytes of state, the header announces 18446744073709551615"

@@ -17,7 +17,7 @@ use std::path::Path;
 /// Options that every command with a scenario has.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(super) struct ScenarioOptions {
-    /// What holds where the scenario says nothing
+    /// `paper` changes nothing; `robust` replaces how the scenario learns
     #[arg(long, value_name = "NAME", value_parser = parse_preset)]
     pub(super) preset: Option<Preset>,
 

@@ -16,7 +16,7 @@ use crate::run_folder::{Manifest, Metrics, RunFolder};
 use crate::scenario::{Scenario, Setting, TrainingSpec};
 use crate::seed::RunSeed;
 use crate::signals::StopFlag;
-use crate::training::{Snapshot, Training};
+use crate::training::{Snapshot, Training, depends_on_generations};
 use controller_core::blob;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -165,6 +165,14 @@ impl Run {
         if let Some(generations) = generations
             && generations != manifest.scenario.training.generations
         {
+            if depends_on_generations(&manifest.scenario) {
+                return Err(Failure::bad_input(format!(
+                    "--generations: the run in {} changes its pairs or its mutation from its first \
+                     generation to its last, generation {}; expected that number, or a new run",
+                    path.display(),
+                    manifest.scenario.training.generations
+                )));
+            }
             let done = loaded.as_ref().map_or(0, |loaded| loaded.generation);
             if u64::from(generations) < done {
                 return Err(Failure::bad_input(format!(

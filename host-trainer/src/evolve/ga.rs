@@ -22,16 +22,47 @@ pub mod settings;
 
 use serde::{Deserialize, Serialize};
 
+use settings::require;
+
 use super::{Cost, Optimizer, Population, RestoreError, SearchSpace, State};
 use crate::seed::{Purpose, RunSeed};
 
-pub use settings::{GaSpec, Mutation, Selection, SettingError};
+pub use settings::{GaSpec, Initial, Mutation, Selection, SettingError, between};
+
+/// What a search may know of its run beforehand; settings say whether it uses it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outlook {
+    /// Generations that will be judged in all.
+    pub generations: u32,
+    /// How large each gene is beside the others, typically; 1 if nothing is known.
+    pub scales: Vec<f32>,
+}
+
+impl Outlook {
+    /// Knows nothing about genomes of this length.
+    pub fn none(genome_len: usize) -> Self {
+        Self { generations: 1, scales: vec![1.0; genome_len] }
+    }
+
+    /// How far a generation, counted from 0, lies on the way from the first (0) to the last (1).
+    pub fn progress(&self, generation: u32) -> f64 {
+        progress(generation, self.generations)
+    }
+}
+
+/// How far a generation, counted from 0, lies on the way from the first of `generations` (0) to
+/// the last (1).
+pub fn progress(generation: u32, generations: u32) -> f64 {
+    let last = generations.saturating_sub(1).max(1);
+    f64::from(generation.min(last)) / f64::from(last)
+}
 
 /// The genetic algorithm with its settings, at some generation of some run.
 #[derive(Clone, Debug)]
 pub struct Ga {
     space: SearchSpace,
     spec: GaSpec,
+    outlook: Outlook,
     seed: RunSeed,
     generation: u32,
     population: Population,
@@ -48,13 +79,29 @@ pub struct GaState {
 }
 
 impl Ga {
-    /// Starts from a uniform random population; refuses settings that make no sense.
+    /// Starts from a random population, knowing nothing of its run; refuses settings that make
+    /// no sense.
     pub fn new(space: SearchSpace, spec: GaSpec, seed: RunSeed) -> Result<Self, SettingError> {
+        Self::with_outlook(space, spec, Outlook::none(space.genome_len), seed)
+    }
+
+    /// The same with what is known of the run.
+    pub fn with_outlook(
+        space: SearchSpace,
+        spec: GaSpec,
+        mut outlook: Outlook,
+        seed: RunSeed,
+    ) -> Result<Self, SettingError> {
         space.check()?;
         spec.check()?;
-        let population = Population::random(&space, seed);
+        let scales = outlook.scales.len();
+        require(scales == space.genome_len, "scales", scales as f64, "one per gene")?;
+        if !spec.fan_in {
+            outlook.scales.fill(1.0);
+        }
+        let population = Population::random(&space, spec.initial, &outlook.scales, seed);
         let next = Population::zeros(&space);
-        Ok(Self { space, spec, seed, generation: 0, population, next })
+        Ok(Self { space, spec, outlook, seed, generation: 0, population, next })
     }
 }
 
@@ -90,9 +137,10 @@ impl Optimizer for Ga {
         crossover::single_point(old, &mut crossed, p1, &mut stream);
         copy(old, &mutated, p2);
         mutation::mutate(
-            self.spec.mutation,
+            self.spec.mutation_at(self.outlook.progress(self.generation + 1)),
             self.spec.mutation_rate,
             self.space.bound,
+            &self.outlook.scales,
             p2,
             &mut stream,
         );

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::seed::{Purpose, RunSeed};
 
 use super::SearchSpace;
+use super::ga::Initial;
 
 /// Genomes of one length, in a fixed order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -21,13 +22,25 @@ impl Population {
         Self { genome_len, genes: vec![0.0; population * genome_len] }
     }
 
-    /// Uniform random genomes; each has its own stream, so that a larger population begins
-    /// with the genomes of a smaller one.
-    pub(super) fn random(space: &SearchSpace, seed: RunSeed) -> Self {
+    /// Random genomes; each has its own stream, so that a larger population begins with the
+    /// genomes of a smaller one. Normal draws for gene `g` are multiplied by `scales[g]`.
+    pub(super) fn random(
+        space: &SearchSpace,
+        initial: Initial,
+        scales: &[f32],
+        seed: RunSeed,
+    ) -> Self {
         let mut drawn = Self::zeros(space);
         for (genome, index) in drawn.genes.chunks_exact_mut(space.genome_len).zip(0..) {
             let mut stream = seed.stream(Purpose::InitialPopulation, 0, index);
-            genome.fill_with(|| stream.within(-space.bound, space.bound));
+            for (gene, scale) in genome.iter_mut().zip(scales) {
+                *gene = match initial {
+                    Initial::Uniform => stream.within(-space.bound, space.bound),
+                    Initial::Gaussian { sigma } => {
+                        (sigma * scale * stream.normal()).clamp(-space.bound, space.bound)
+                    }
+                };
+            }
         }
         drawn
     }
@@ -95,18 +108,31 @@ mod tests {
 
     #[test]
     fn a_larger_population_begins_with_the_smaller_one() {
-        let small = Population::random(&SPACE, RunSeed(7));
-        let large = Population::random(&SearchSpace { population: 9, ..SPACE }, RunSeed(7));
-        assert_eq!(large.size(), 9);
-        assert_eq!(large.genes()[..15], *small.genes());
+        for initial in [Initial::Uniform, Initial::Gaussian { sigma: 1.0 }] {
+            let random = |space| Population::random(&space, initial, &[1.0; 3], RunSeed(7));
+            let (small, large) = (random(SPACE), random(SearchSpace { population: 9, ..SPACE }));
+            assert_eq!(large.size(), 9);
+            assert_eq!(large.genes()[..15], *small.genes());
+        }
     }
 
     #[test]
     fn first_genes_fill_their_bounds_evenly() {
         let space = SearchSpace { population: 160, genome_len: 553, bound: 2.0 };
-        let drawn = Population::random(&space, RunSeed(1));
+        let drawn = Population::random(&space, Initial::Uniform, &[1.0; 553], RunSeed(1));
         let genes = drawn.genes().iter().copied().map(f64::from).collect();
         assert!(follows(genes, |gene| (gene + 2.0) / 4.0));
+    }
+
+    #[test]
+    fn normal_first_genes_have_the_spread_of_their_scale_within_the_bounds() {
+        let space = SearchSpace { population: 4000, genome_len: 2, bound: 2.0 };
+        let initial = Initial::Gaussian { sigma: 0.5 };
+        let drawn = Population::random(&space, initial, &[1.0, 8.0], RunSeed(1));
+        let first = drawn.genomes().map(|genome| f64::from(genome[0])).collect();
+        assert!(follows(first, |x| 0.5 * libm::erfc(-x / (0.5 * std::f64::consts::SQRT_2))));
+        let second = || drawn.genomes().map(|genome| genome[1]);
+        assert!(second().all(|gene| gene.abs() <= 2.0) && second().any(|gene| gene == 2.0));
     }
 
     #[test]

@@ -195,7 +195,7 @@ pub fn training_drives(
     most: usize,
 ) -> Result<Vec<Drive>, Failure> {
     let training = Training::new(&setup.problem, seed)?;
-    let pairs = training.pairs(best.generation)?;
+    let pairs = training.pairs_of(best)?;
     let film = |(index, pair): (u32, &Pair)| {
         let place = |_| training_drive(seed, best.generation, index);
         picture::drives(&setup.problem, &best.genome, std::slice::from_ref(pair), place)

@@ -73,7 +73,7 @@ impl Input {
 
 impl<S: Serialize + DeserializeOwned> Manifest<S> {
     /// Version of the manifest's format that this build writes and reads.
-    pub const FORMAT: u16 = 1;
+    pub const FORMAT: u16 = 2;
 
     /// Describes a run of `scenario` from `seed`.
     ///

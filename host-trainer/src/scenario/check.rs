@@ -188,11 +188,27 @@ fn pairs(scenario: &Scenario, found: &mut Vec<Complaint>) {
                 let complaint = Complaint::new("pairs.min_distance_m", title, detail);
                 found.push(complaint.or_at("world.max_m").or_at("world.min_m"));
             }
+            changing(&scenario.pairs, found);
         }
         PairSource::Listed(list) => {
             for (index, pair) in list.iter().enumerate() {
                 pair_in_room(scenario, index, pair, found);
             }
+        }
+    }
+}
+
+/// What changes from generation to generation needs pairs that do.
+fn changing(pairs: &PairSpec, found: &mut Vec<Complaint>) {
+    if matches!(pairs.source, PairSource::Drawn { resample: true, .. }) {
+        return;
+    }
+    let (grows, mines) = (pairs.count_end.is_some(), pairs.mine > 0.0);
+    for (asked, key) in [(grows, "pairs.count_end"), (mines, "pairs.mine")] {
+        if asked {
+            let title = format!("`{key}` needs new pairs in each generation");
+            let detail = "found pairs that stay the same, expected pairs.resample = true";
+            found.push(Complaint::new(key, title, detail));
         }
     }
 }

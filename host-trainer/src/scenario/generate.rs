@@ -12,7 +12,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::words::listed;
-use super::writer::to_toml_beside;
+use super::writer::to_toml_beside_paper;
 use super::*;
 use crate::failure::Failure;
 use crate::seed::{Purpose, RunSeed};
@@ -190,7 +190,7 @@ impl Recipe {
             "# Made by: evosteer scenario generate --kind {} --seed {} --size {width}x{height} --density {}\n\n",
             self.kind, self.seed, self.density
         );
-        Ok(note + &to_toml_beside(&scenario, Preset::Paper))
+        Ok(note + &to_toml_beside_paper(&scenario))
     }
 
     fn check(&self) -> Result<(), RecipeError> {

@@ -1,4 +1,4 @@
-//! From text to a scenario: defaults, then the preset, the file, `--set` and other options.
+//! From text to a scenario: defaults, then the file, the preset, `--set` and other options.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -50,7 +50,8 @@ impl Setting {
     }
 }
 
-/// Reads a scenario: what neither the settings nor the text say comes from the preset.
+/// Reads a scenario. The settings win over the preset, the preset over the text, the text over
+/// the paper's settings.
 ///
 /// # Errors
 ///
@@ -61,12 +62,12 @@ pub fn load(
     preset: Option<Preset>,
     settings: &[Setting],
 ) -> Result<Scenario, Failure> {
-    let documents = documents(source, settings);
+    let documents = documents(source, preset, settings);
     let (tables, mut problems) = parse(&documents);
     if !problems.is_empty() {
         return Err(failure(problems, &documents));
     }
-    let mut scenario = preset.unwrap_or_default().scenario();
+    let mut scenario = super::preset::paper();
     scenario.name.clone_from(&source.name);
     read_layers(&mut scenario, layers(&tables), &mut problems);
     if !problems.is_empty() {
@@ -93,13 +94,13 @@ pub fn load(
         }
     }
     let mut complaints = complaints(&scenario);
-    complaints.extend(listed_and_drawn(&tables));
+    complaints.extend(listed_and_drawn(source, settings));
     if complaints.is_empty() { Ok(scenario) } else { Err(point(&complaints, &tables, &documents)) }
 }
 
 /// The failure that complaints about a loaded scenario mean, with their places.
 pub fn refuse(source: &Source, settings: &[Setting], complaints: &[Complaint]) -> Failure {
-    let documents = documents(source, settings);
+    let documents = documents(source, None, settings);
     point(complaints, &parse(&documents).0, &documents)
 }
 
@@ -116,11 +117,17 @@ fn bounds_of(yaml: &Path, refuse: impl Fn(Complaint) -> Failure) -> Result<Bound
     })
 }
 
-fn documents<'a>(source: &'a Source, settings: &'a [Setting]) -> Vec<Document<'a>> {
+fn documents<'a>(
+    source: &'a Source,
+    preset: Option<Preset>,
+    settings: &'a [Setting],
+) -> Vec<Document<'a>> {
     let file = Document { label: &source.label, text: Cow::from(&source.text) };
+    let over = preset.map(Preset::over).filter(|over| !over.is_empty());
+    let over = over.map(|text| Document { label: "--preset", text: Cow::from(text) });
     let options =
         settings.iter().map(|setting| Document { label: &setting.option, text: setting.toml() });
-    std::iter::once(file).chain(options).collect()
+    std::iter::once(file).chain(over).chain(options).collect()
 }
 
 type Tables<'a> = Vec<Spanned<DeTable<'a>>>;
@@ -162,11 +169,13 @@ fn layers<'a>(tables: &'a Tables<'a>) -> Vec<Layer<'a>> {
     tables.iter().enumerate().map(layer).collect()
 }
 
-/// Listed pairs leave nothing to draw.
-fn listed_and_drawn(tables: &Tables<'_>) -> Option<Complaint> {
+/// Listed pairs leave nothing to draw. (What a preset says of drawing does no harm.)
+fn listed_and_drawn(source: &Source, settings: &[Setting]) -> Option<Complaint> {
+    let documents = documents(source, None, settings);
+    let tables = &parse(&documents).0;
     locate("pairs.list[0]", tables)?;
-    let key =
-        ["pairs.count", "pairs.resample"].into_iter().find(|key| locate(key, tables).is_some())?;
+    let drawn = ["pairs.count", "pairs.resample", "pairs.count_end", "pairs.mine"];
+    let key = drawn.into_iter().find(|key| locate(key, tables).is_some())?;
     let title = format!("`{key}` means nothing beside `pairs.list`");
     let detail = "found both, expected pairs that are either listed or drawn";
     Some(Complaint::new(key, title, detail))

@@ -1,6 +1,7 @@
-//! Named sets of settings: what holds where a scenario file says nothing.
+//! Named sets of settings: what lies under a scenario file and what goes over it.
 
 use std::f32::consts::FRAC_PI_2;
+use std::path::Path;
 
 use controller_core::activation::ActivationKind;
 use controller_core::network::RecurrenceKind;
@@ -15,30 +16,40 @@ pub enum Preset {
     /// The paper's settings, with our readings where it is silent.
     #[default]
     Paper,
+    /// Drives clean where it has never been: more pairs, other costs, another mutation.
+    Robust,
 }
 
 impl Preset {
     /// Every preset, in the order they are listed to people.
-    pub const ALL: [Self; 1] = [Self::Paper];
+    pub const ALL: [Self; 2] = [Self::Paper, Self::Robust];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
+            Self::Robust => "robust",
+        }
+    }
+
+    /// What goes over a scenario file, as a scenario file. The paper's settings lie under it.
+    pub(super) fn over(self) -> &'static str {
+        match self {
+            Self::Paper => "",
+            Self::Robust => include_str!("robust.toml"),
         }
     }
 
     /// The preset as a scenario: an empty room of 10 × 10 m with these settings.
     pub fn scenario(self) -> Scenario {
-        match self {
-            Self::Paper => paper(),
-        }
+        let source = Source::new("unnamed", "", Path::new(""));
+        load(&source, Some(self), &[]).expect("a preset makes sense")
     }
 }
 
 /// Printed in the paper: beam angles, network, fitness weights, genetic algorithm, five pairs.
 /// Everything else is our reading.
-fn paper() -> Scenario {
+pub(super) fn paper() -> Scenario {
     Scenario {
         name: "unnamed".to_owned(),
         description: String::new(),
@@ -88,15 +99,26 @@ fn paper() -> Scenario {
             start_turn: 0.0,
             randomise: RandomiseSpec::default(),
         },
-        fitness: FitnessSpec { distance: 100.0, length: 100.0, collision: 150.0, bonus: 5000.0 },
+        fitness: FitnessSpec {
+            kind: FitnessKind::Paper,
+            distance: 100.0,
+            length: 100.0,
+            collision: 150.0,
+            bonus: 5000.0,
+            time: 0.1,
+            progress: 0.1,
+        },
         pairs: PairSpec {
             source: PairSource::Drawn { count: 5, resample: false },
             min_distance: 4.0,
+            count_end: None,
+            mine: 0.0,
         },
         training: TrainingSpec {
             population: 120,
             generations: 60,
             weight_bound: 1.0,
+            validation_pairs: 0,
             ga: GaSpec::PAPER,
         },
     }

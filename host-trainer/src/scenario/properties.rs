@@ -106,7 +106,12 @@ fn any_pairs() -> impl Strategy<Value = PairSpec> {
             .prop_map(|(count, resample)| PairSource::Drawn { count, resample }),
         vec(pair, 1..5).prop_map(PairSource::Listed),
     ];
-    (source, 0_f32..20.0).prop_map(|(source, min_distance)| PairSpec { source, min_distance })
+    let plan = (proptest::option::of(1_u32..1000), 0_f32..0.9);
+    (source, 0_f32..20.0, plan).prop_map(|(source, min_distance, (count_end, mine))| {
+        let anew = matches!(source, PairSource::Drawn { resample: true, .. });
+        let (count_end, mine) = if anew { (count_end, mine) } else { (None, 0.0) };
+        PairSpec { source, min_distance, count_end, mine }
+    })
 }
 
 fn any_training() -> impl Strategy<Value = TrainingSpec> {
@@ -119,23 +124,35 @@ fn any_training() -> impl Strategy<Value = TrainingSpec> {
         Just(Mutation::Uniform),
         (0.001_f32..5.0).prop_map(|amplitude| Mutation::Additive { amplitude }),
         (0.001_f32..5.0).prop_map(|sigma| Mutation::Gaussian { sigma }),
+        (0.001_f32..5.0).prop_map(|sigma| Mutation::EveryGene { sigma }),
     ];
-    let ga = (0_f32..0.5, 0_f32..0.4, selection, mutation, 0_f32..=1.0).prop_map(
-        |(crossover_share, mutation_share, selection, mutation, mutation_rate)| GaSpec {
+    let initial = prop_oneof![
+        Just(Initial::Uniform),
+        (0.001_f32..5.0).prop_map(|sigma| Initial::Gaussian { sigma }),
+    ];
+    let changes = (mutation, 0_f32..=1.0, proptest::option::of(0.001_f32..5.0), initial);
+    let ga = (0_f32..0.5, 0_f32..0.4, selection, changes, any::<bool>()).prop_map(
+        |(crossover_share, mutation_share, selection, changes, fan_in)| GaSpec {
             crossover_share,
             mutation_share,
             ranking_share: 0.02,
             random_share: 1.0 - 0.02 - crossover_share - mutation_share,
             selection,
-            mutation_rate,
-            mutation,
+            mutation_rate: changes.1,
+            mutation: changes.0,
+            sigma_end: changes.2.filter(|_| {
+                matches!(changes.0, Mutation::Gaussian { .. } | Mutation::EveryGene { .. })
+            }),
+            initial: changes.3,
+            fan_in,
         },
     );
-    (2_u32..1000, 1_u32..1000, 0.1_f32..10.0, ga).prop_map(
-        |(population, generations, weight_bound, ga)| TrainingSpec {
+    (2_u32..1000, 1_u32..1000, 0.1_f32..10.0, 0_u32..1000, ga).prop_map(
+        |(population, generations, weight_bound, validation_pairs, ga)| TrainingSpec {
             population,
             generations,
             weight_bound,
+            validation_pairs,
             ga,
         },
     )
@@ -170,12 +187,13 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
             randomise,
         },
     );
-    let costs = [0_f32..1e4, 0_f32..1e4, 0_f32..1e4, 0_f32..1e6];
+    let kinds = select(words::FITNESS_KINDS.to_vec());
+    let costs = ([0_f32..1e4, 0_f32..1e4, 0_f32..1e4, 0_f32..1e6], [0_f32..0.5, 0_f32..0.5], kinds);
     let names = ("[A-Za-z0-9_-]{1,64}", "[^\\p{C}]{0,80}");
     let halves = (any_world(), any_vehicle(), any_sensors(), network);
     (names, halves, episode, costs, any_pairs(), any_training()).prop_map(
         |(names, (world, vehicle, sensors, network), episode, costs, pairs, training)| {
-            let [distance, length, collision, bonus] = costs;
+            let ([distance, length, collision, bonus], [time, progress], (_, kind)) = costs;
             Scenario {
                 name: names.0,
                 description: names.1,
@@ -184,7 +202,7 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
                 sensors,
                 network,
                 episode,
-                fitness: FitnessSpec { distance, length, collision, bonus },
+                fitness: FitnessSpec { kind, distance, length, collision, bonus, time, progress },
                 pairs,
                 training,
             }
@@ -261,7 +279,7 @@ fn every_shipped_scenario_written_as_a_file_loads_as_the_same_scenario() {
 }
 
 #[test]
-fn a_setting_in_the_file_wins_over_the_preset_and_an_option_over_both() {
+fn a_setting_in_the_file_wins_over_the_paper_and_an_option_over_both() {
     let source = Source::new("a.toml", "[episode]\nstep_limit = 7\nperiod_s = 0.5", Path::new(""));
     let set = |text| Setting::set(text);
     let episode = |settings: &[Setting]| load(&source, None, settings).unwrap().episode;
@@ -277,4 +295,25 @@ fn a_setting_in_the_file_wins_over_the_preset_and_an_option_over_both() {
 fn a_scenario_as_a_file_is_readable() {
     let scenario = load(&find("obstacles").unwrap(), None, &[]).unwrap();
     insta::assert_snapshot!("obstacles_in_full", to_toml(&scenario));
+}
+
+#[test]
+fn the_preset_robust_wins_over_the_file_and_an_option_over_both() {
+    let source = find("complex").unwrap();
+    let load = |settings: &[Setting]| load(&source, Some(Preset::Robust), settings).unwrap();
+    let (robust, set) = (Preset::Robust.scenario(), load(&[]));
+    assert_eq!((set.training, set.fitness), (robust.training, robust.fitness));
+    assert_eq!((&set.pairs, set.episode), (&robust.pairs, robust.episode));
+    assert_eq!(set.world, super::load(&source, None, &[]).unwrap().world);
+    assert_eq!(load(&[Setting::set("training.population=50")]).training.population, 50);
+}
+
+/// What is said of drawing says nothing where pairs are listed.
+#[test]
+fn every_shipped_scenario_makes_sense_with_every_preset() {
+    for entry in ENTRIES {
+        for preset in Preset::ALL {
+            load(&find(entry.name).unwrap(), Some(preset), &[]).unwrap();
+        }
+    }
 }

@@ -153,6 +153,10 @@ const GEOMETRY: &[&str] = &[
     "[[pairs.list]]\nstart = [1, 1, 0]\ngoal = [1.3, 1]",
     "[pairs]\ncount = 7\nlist = [{ start = [1, 1, 0], goal = [8, 8] }]",
     "[training.ga]\nrandom_share = 0.5",
+    "[training.ga]\nsigma_end = 0.01",
+    "[pairs]\ncount_end = 20",
+    "[pairs]\nmine = 0.5\nresample = false",
+    "[pairs]\nmine = 0.5\nlist = [{ start = [1, 1, 0], goal = [8, 8] }]",
 ];
 
 #[test]

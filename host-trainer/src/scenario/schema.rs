@@ -221,10 +221,15 @@ impl Record for RandomiseSpec {
 
 impl Record for FitnessSpec {
     fn visit(&mut self, v: &mut impl Visit) {
+        let kinds = Word(words::FITNESS_KINDS);
+        v.value("kind", &mut self.kind, kinds, "which cost, with the weights that it has");
         v.value("distance", &mut self.distance, COST, "c1, per metre to the target at the end");
         v.value("length", &mut self.length, COST, "c2, per metre driven");
         v.value("collision", &mut self.collision, COST, "c3, per collision");
         v.value("bonus", &mut self.bonus, COST, "B, taken off when the target is reached");
+        let half = Number::plain(0.0, 0.5);
+        v.value("time", &mut self.time, half, "reached-first: for all of the step limit");
+        v.value("progress", &mut self.progress, half, "reached-first: for all of the way");
     }
 }
 
@@ -245,6 +250,15 @@ impl Record for PairSpec {
             List(shapes::Entry::<Pair>::new()),
             "pairs instead of drawn ones",
         );
+        let ends = shapes::Maybe(Whole { low: 1, high: 100_000 });
+        v.value("count_end", &mut self.count_end, ends, "pairs in the last generation");
+        let mut mine = count.map(|_| self.mine);
+        let shares = shapes::Maybe(Number::plain(0.0, 0.9));
+        v.value("mine", &mut mine, shares, "share kept for the next generation, hardest first");
+        self.mine = mine.unwrap_or(0.0);
+        if !list.is_empty() {
+            (self.count_end, self.mine) = (None, 0.0);
+        }
         self.source = if list.is_empty() {
             PairSource::Drawn {
                 count: count.unwrap_or(Self::DRAWN),
@@ -273,6 +287,9 @@ impl Record for TrainingSpec {
         v.value("generations", &mut self.generations, generations, "");
         let bound = Number::plain(0.0, 1000.0).above();
         v.value("weight_bound", &mut self.weight_bound, bound, "weights stay within ± this");
+        let pairs = Whole { low: 0, high: 100_000 };
+        let validation = &mut self.validation_pairs;
+        v.value("validation_pairs", validation, pairs, "choose the champion; 0: the last best");
         v.section("ga", &mut self.ga);
     }
 }
@@ -291,5 +308,9 @@ impl Record for GaSpec {
             "toolbox rate: half of it changes on average",
         );
         v.value("mutation", &mut self.mutation, MUTATION, "what a changed gene becomes");
+        let sigma = shapes::Maybe(Number::plain(0.0, 2000.0).above());
+        v.value("sigma_end", &mut self.sigma_end, sigma, "sigma in the last generation");
+        v.value("initial", &mut self.initial, words::INITIAL, "how the first genes are drawn");
+        v.value("fan_in", &mut self.fan_in, Flag, "sigmas are for 3 inputs; more, smaller steps");
     }
 }

@@ -40,6 +40,9 @@ pub(super) const ACTIVATIONS: &[(&str, ActivationKind)] = &[
     ("micromath", ActivationKind::Micromath),
 ];
 
+pub(super) const FITNESS_KINDS: &[(&str, FitnessKind)] =
+    &[("paper", FitnessKind::Paper), ("reached-first", FitnessKind::ReachedFirst)];
+
 pub(super) const COLLISIONS: &[(&str, OnCollision)] =
     &[("hold", OnCollision::Hold), ("stop", OnCollision::Stop)];
 
@@ -104,7 +107,29 @@ pub(super) const MUTATION: Choice<Mutation> = Choice {
                 _ => None,
             },
         },
+        Tuned {
+            key: "every_gene_sigma",
+            number: Number::plain(0.0, 2000.0).above(),
+            make: |sigma| Mutation::EveryGene { sigma },
+            get: |mutation| match mutation {
+                Mutation::EveryGene { sigma } => Some(*sigma),
+                _ => None,
+            },
+        },
     ],
+};
+
+pub(super) const INITIAL: Choice<Initial> = Choice {
+    words: &[("uniform", Initial::Uniform)],
+    tuned: &[Tuned {
+        key: "gaussian_sigma",
+        number: Number::plain(0.0, 2000.0).above(),
+        make: |sigma| Initial::Gaussian { sigma },
+        get: |initial| match initial {
+            Initial::Gaussian { sigma } => Some(*sigma),
+            Initial::Uniform => None,
+        },
+    }],
 };
 
 /// `true` or `false`.

@@ -3,16 +3,15 @@
 use super::schema::{Codec, Record, Visit};
 use super::{Preset, Scenario};
 
-/// The scenario as a scenario file that says everything: loading it gives the same scenario,
-/// whatever the preset.
+/// The scenario as a scenario file that says everything: loading it gives the same scenario.
 pub fn to_toml(scenario: &Scenario) -> String {
     text_of(&settings_of(scenario))
 }
 
-/// The scenario as a scenario file that says what differs from a preset, and always the size of
-/// the room: loading it with that preset gives the same scenario.
-pub fn to_toml_beside(scenario: &Scenario, preset: Preset) -> String {
-    let usual = settings_of(&preset.scenario());
+/// The scenario as a scenario file that says what differs from the paper's settings, and always
+/// the size of the room: loading it gives the same scenario.
+pub fn to_toml_beside_paper(scenario: &Scenario) -> String {
+    let usual = settings_of(&Preset::Paper.scenario());
     let mut settings = settings_of(scenario);
     settings.retain(|setting| {
         let same = |other: &Setting| setting.section == other.section && setting.text == other.text;

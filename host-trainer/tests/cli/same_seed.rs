@@ -76,6 +76,18 @@ fn a_run_that_is_resumed_to_more_generations_ends_as_the_longer_run_does() {
 }
 
 #[test]
+fn a_run_that_changes_on_its_way_is_not_resumed_to_another_number_of_generations() {
+    let bench = Bench::new();
+    bench.train("open", "a", &["--preset=robust", "--set=training.validation_pairs=5"]).ends_in(0);
+    let before = bench.all_files("a");
+    let done = bench.say("train --resume a --generations 5").ends_in(2);
+    let expected = "from its first generation to its last, generation 3; expected that number";
+    assert!(done.stderr.contains(expected), "{}", done.stderr);
+    assert!(before == bench.all_files("a"));
+    bench.say("train --resume a --generations 3").ends_in(0);
+}
+
+#[test]
 fn a_finished_run_that_is_resumed_stays_as_it_is() {
     let bench = Bench::new();
     bench.train("open", "a", &[]).ends_in(0);

@@ -41,7 +41,7 @@ fn drawn_pairs_are_clear_of_obstacles_and_far_enough_apart() {
 }
 
 #[test]
-fn unseen_pairs_are_never_training_pairs_even_with_the_same_seed() {
+fn unseen_pairs_are_never_training_or_validation_pairs_even_with_the_same_seed() {
     let mut scenario = shipped("obstacles");
     scenario.pairs.source = PairSource::Drawn { count: 100, resample: true };
     let world = world_of(&scenario);
@@ -53,6 +53,8 @@ fn unseen_pairs_are_never_training_pairs_even_with_the_same_seed() {
             .extend(sampler.training(&scenario, RunSeed(7), generation).unwrap().iter().map(bits));
     }
     assert_eq!(trained.len(), 2_000);
+    trained.extend(sampler.validation(RunSeed(7), 2_000).unwrap().iter().map(bits));
+    assert_eq!(trained.len(), 4_000);
     let unseen = sampler.unseen(RunSeed(7), 2_000).unwrap();
     assert!(unseen.iter().all(|pair| !trained.contains(&bits(pair))));
 }

@@ -1,7 +1,9 @@
 //! Training is the same, bit for bit, on any number of threads and after any interruption.
 
 use crate::worlds::from_toml;
-use host_trainer::problem::Problem;
+use host_trainer::fitness;
+use host_trainer::pairs::PairSampler;
+use host_trainer::problem::{Problem, training_drive, validation_drive};
 use host_trainer::seed::RunSeed;
 use host_trainer::training::{Snapshot, Training};
 use rayon::ThreadPoolBuilder;
@@ -37,6 +39,37 @@ const EXACT: &str = "
     population = 21
 ";
 
+/// Everything that may change from generation to generation.
+const CHANGING: &str = "
+    [world]
+    boxes = [[4, 4, 6, 6]]
+    [episode]
+    step_limit = 120
+    on_collision = 'stop'
+    [fitness]
+    kind = 'reached-first'
+    [pairs]
+    count = 4
+    count_end = 16
+    resample = true
+    mine = 0.5
+    [training]
+    population = 40
+    generations = 12
+    weight_bound = 10
+    validation_pairs = 30
+    [training.ga]
+    crossover_share = 0
+    mutation_share = 0.95
+    ranking_share = 0.05
+    random_share = 0
+    selection = { truncation_share = 0.2 }
+    mutation = { every_gene_sigma = 0.2 }
+    sigma_end = 0.02
+    initial = { gaussian_sigma = 1 }
+    fan_in = true
+";
+
 fn bytes(training: &Training<'_>) -> Vec<u8> {
     postcard::to_allocvec(&training.snapshot()).unwrap()
 }
@@ -54,7 +87,7 @@ fn trained(problem: &Problem, threads: usize, generations: u32) -> Vec<u8> {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
-    for settings in [EXACT, NOISY] {
+    for settings in [EXACT, NOISY, CHANGING] {
         let problem = Problem::new(from_toml(settings)).unwrap();
         let alone = trained(&problem, 1, 3);
         for threads in [2, 7] {
@@ -65,20 +98,20 @@ fn any_number_of_threads_gives_the_same_bytes() {
 
 #[test]
 fn a_run_goes_on_from_its_snapshot_as_if_nothing_had_happened() {
-    for settings in [EXACT, NOISY] {
+    for (settings, before) in [(EXACT, 2), (NOISY, 2), (CHANGING, 9)] {
         let problem = Problem::new(from_toml(settings)).unwrap();
         let mut first = Training::new(&problem, RunSeed(5)).unwrap();
-        for _ in 0..2 {
+        for _ in 0..before {
             first.step().unwrap();
         }
         let saved: Snapshot = postcard::from_bytes(&bytes(&first)).unwrap();
         let mut resumed = Training::new(&problem, RunSeed(5)).unwrap();
         resumed.restore(saved).unwrap();
-        assert_eq!(resumed.generation(), 2);
+        assert_eq!(resumed.generation(), before);
         for _ in 0..2 {
             resumed.step().unwrap();
         }
-        assert!(bytes(&resumed) == trained(&problem, 1, 4), "{settings}");
+        assert!(bytes(&resumed) == trained(&problem, 1, before + 2), "{settings}");
     }
 }
 
@@ -100,4 +133,68 @@ fn a_snapshot_of_another_network_is_refused() {
     let snapshot = Training::new(&problem, RunSeed(5)).unwrap().snapshot();
     let mut other = Training::new(&wider, RunSeed(5)).unwrap();
     assert!(other.restore(snapshot).is_err());
+}
+
+/// A run that has come far enough to keep hard pairs.
+fn changed(problem: &Problem) -> Training<'_> {
+    let mut training = Training::new(problem, RunSeed(5)).unwrap();
+    let mut costs = Vec::new();
+    for _ in 0..12 {
+        training.step().unwrap();
+        costs.push(training.best().unwrap().cost);
+    }
+    assert!(costs.is_sorted_by(|before, after| before >= after), "{costs:?}");
+    assert!(costs[11] < costs[0]);
+    training
+}
+
+#[test]
+fn the_champion_is_the_one_that_did_best_on_pairs_of_its_own() {
+    let problem = Problem::new(from_toml(CHANGING)).unwrap();
+    let training = changed(&problem);
+    let best = training.best().unwrap();
+    let sampler = PairSampler::new(&problem.world, &problem.scenario);
+    let pairs = sampler.validation(RunSeed(5), 30).unwrap();
+    let mut brain = problem.brain(&best.genome).unwrap();
+    let drives = problem.drive_all(&mut *brain, &pairs, |pair| validation_drive(RunSeed(5), pair));
+    assert_eq!(fitness::total(&problem.scenario, &pairs, &drives), best.cost);
+}
+
+#[test]
+fn a_champions_pairs_are_those_that_its_generation_drove() {
+    let problem = Problem::new(from_toml(CHANGING)).unwrap();
+    let training = changed(&problem);
+    let best = training.best().unwrap();
+    let pairs = training.pairs_of(best).unwrap();
+    assert!(!best.kept.is_empty() && pairs.ends_with(&best.kept), "{best:?}");
+    let mut brain = problem.brain(&best.genome).unwrap();
+    let place = |pair| training_drive(RunSeed(5), best.generation, pair);
+    let drives = problem.drive_all(&mut *brain, &pairs, place);
+    let found = fitness::total(&problem.scenario, &pairs, &drives).value();
+    assert_eq!(found, training.history()[best.generation as usize].best);
+}
+
+#[test]
+fn pairs_grow_in_number_to_the_last_generation() {
+    let problem = Problem::new(from_toml(CHANGING)).unwrap();
+    let sampler = PairSampler::new(&problem.world, &problem.scenario);
+    let count =
+        |generation| sampler.training(&problem.scenario, RunSeed(5), generation).unwrap().len();
+    assert_eq!([0, 1, 5, 6, 11].map(count), [4, 5, 8, 9, 16]); // 4 · 4^(generation/11)
+}
+
+#[test]
+fn the_number_of_generations_is_part_of_a_run_that_changes_on_its_way() {
+    for (settings, is_part) in [(NOISY, false), (CHANGING, true)] {
+        let run = |generations| {
+            let mut scenario = from_toml(settings);
+            scenario.training.generations = generations;
+            Problem::new(scenario).unwrap()
+        };
+        let (short, long) = (run(7), run(9));
+        let mut first = Training::new(&short, RunSeed(5)).unwrap();
+        first.step().unwrap();
+        let mut other = Training::new(&long, RunSeed(5)).unwrap();
+        assert_eq!(other.restore(first.snapshot()).is_err(), is_part);
+    }
 }

@@ -76,7 +76,7 @@ pub(super) fn finish(
         .map_err(|error| Failure::bad_input(format!("the champion cannot be written: {error}")))?;
     folder.write(RunFolder::CHAMPION, &bytes)?;
 
-    let pairs = training.pairs(best.generation)?;
+    let pairs = training.pairs_of(best)?;
     let place = |drive| training_drive(seed, best.generation, drive);
     let unseen = problem
         .sampler()

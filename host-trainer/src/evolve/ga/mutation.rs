@@ -3,21 +3,39 @@
 //! One call makes `ceil(genes · rate · U)` changes, with one `U` uniform in `0.0..1.0` for
 //! all strings together, each at a gene drawn with replacement. So a rate of 0.1 changes
 //! `1 − (1 − e^−0.1)/0.1`, 4.8 %, of the genes on average, and not 10 %.
+//!
+//! [`Mutation::EveryGene`] is no operator of the toolbox: it changes every gene, in order.
 
 use super::Mutation;
 use crate::seed::Stream;
 
 /// Changes some of `genes`, the strings of one group end to end; they stay in
-/// `-bound..=bound`.
-pub fn mutate(mutation: Mutation, rate: f32, bound: f32, genes: &mut [f32], stream: &mut Stream) {
+/// `-bound..=bound`. Normal draws for gene `g` of a string are multiplied by `scales[g]`.
+pub fn mutate(
+    mutation: Mutation,
+    rate: f32,
+    bound: f32,
+    scales: &[f32],
+    genes: &mut [f32],
+    stream: &mut Stream,
+) {
+    if let Mutation::EveryGene { sigma } = mutation {
+        for (gene, scale) in genes.iter_mut().zip(scales.iter().cycle()) {
+            *gene = (*gene + sigma * scale * stream.normal()).clamp(-bound, bound);
+        }
+        return;
+    }
     let changes = (genes.len() as f64 * f64::from(rate) * stream.unit_f64()).ceil() as usize;
     for _ in 0..changes {
         // One draw over all genes is a random string and a random gene of it.
-        let gene = &mut genes[stream.index(genes.len())];
+        let index = stream.index(genes.len());
+        let gene = &mut genes[index];
         *gene = match mutation {
             Mutation::Uniform => stream.within(-bound, bound),
             Mutation::Additive { amplitude } => *gene + stream.within(-amplitude, amplitude),
-            Mutation::Gaussian { sigma } => *gene + sigma * stream.normal(),
+            Mutation::Gaussian { sigma } | Mutation::EveryGene { sigma } => {
+                *gene + sigma * scales[index % scales.len()] * stream.normal()
+            }
         }
         .clamp(-bound, bound);
     }
@@ -38,7 +56,7 @@ mod tests {
     /// Genes after one call on zeros; 0.0 itself is hit with probability 2⁻²³ only.
     fn mutated(mutation: Mutation, rate: f32, bound: f32, generation: u32) -> Vec<f32> {
         let mut genes = vec![0.0; GENES];
-        mutate(mutation, rate, bound, &mut genes, &mut stream(generation));
+        mutate(mutation, rate, bound, &[1.0], &mut genes, &mut stream(generation));
         genes
     }
 
@@ -73,7 +91,7 @@ mod tests {
     #[test]
     fn no_rate_or_no_genes_change_nothing() {
         assert_eq!(mutated(Mutation::Uniform, 0.0, 3.0, 0), [0.0; GENES]);
-        mutate(Mutation::Uniform, 0.1, 3.0, &mut [], &mut stream(0));
+        mutate(Mutation::Uniform, 0.1, 3.0, &[1.0], &mut [], &mut stream(0));
     }
 
     #[test]
@@ -112,12 +130,32 @@ mod tests {
 
     #[test]
     fn changes_past_the_bounds_stop_there() {
-        for mutation in
-            [Mutation::Additive { amplitude: f32::MAX }, Mutation::Gaussian { sigma: f32::MAX }]
-        {
+        for mutation in [
+            Mutation::Additive { amplitude: f32::MAX },
+            Mutation::Gaussian { sigma: f32::MAX },
+            Mutation::EveryGene { sigma: f32::MAX },
+        ] {
             let genes = mutated(mutation, 1.0, 1.5, 0);
             assert!(genes.iter().all(|gene| gene.abs() <= 1.5));
             assert!(genes.contains(&1.5) && genes.contains(&-1.5));
+        }
+    }
+
+    #[test]
+    fn every_gene_changes_by_a_normal_draw_of_its_own_scale() {
+        for mutation in [Mutation::EveryGene { sigma: 0.5 }, Mutation::Gaussian { sigma: 0.5 }] {
+            let mut genes = vec![0.0; GENES];
+            mutate(mutation, 0.01, 1e6, &[2.0, 0.2], &mut genes, &mut stream(4));
+            for (first, sigma) in [(0, 1.0), (1, 0.1)] {
+                let own: Vec<f64> =
+                    genes.iter().skip(first).step_by(2).map(|gene| f64::from(*gene)).collect();
+                if mutation == (Mutation::EveryGene { sigma: 0.5 }) {
+                    assert!(own.iter().all(|gene| *gene != 0.0));
+                }
+                let changed: Vec<f64> = own.into_iter().filter(|gene| *gene != 0.0).collect();
+                let cumulative = |x: f64| 0.5 * libm::erfc(-x / (sigma * std::f64::consts::SQRT_2));
+                assert!(follows(changed, cumulative), "{mutation:?}, {sigma}");
+            }
         }
     }
 }

@@ -23,6 +23,27 @@ pub struct GaSpec {
     pub mutation_rate: f32,
     /// What a changed gene becomes.
     pub mutation: Mutation,
+    /// The mutation's sigma in the last generation, reached by equal ratios; none keeps it.
+    pub sigma_end: Option<f32>,
+    /// How the first genes are drawn.
+    pub initial: Initial,
+    /// Whether every normal draw is multiplied by its gene's scale, see [`Outlook`].
+    ///
+    /// [`Outlook`]: super::Outlook
+    pub fan_in: bool,
+}
+
+/// How the first genes are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Initial {
+    /// Uniform within the bounds.
+    Uniform,
+    /// Normal around 0, kept within the bounds.
+    Gaussian {
+        /// Standard deviation, above 0.
+        sigma: f32,
+    },
 }
 
 /// How parents are selected.
@@ -59,6 +80,11 @@ pub enum Mutation {
         /// Standard deviation, above 0.
         sigma: f32,
     },
+    /// As [`Self::Gaussian`], and every gene of the group changes, whatever the rate.
+    EveryGene {
+        /// Standard deviation, above 0.
+        sigma: f32,
+    },
 }
 
 /// A setting of the search that makes no sense.
@@ -90,6 +116,9 @@ impl GaSpec {
         selection: Selection::Sus,
         mutation_rate: 0.1,
         mutation: Mutation::Uniform,
+        sigma_end: None,
+        initial: Initial::Uniform,
+        fan_in: false,
     };
 
     /// How far the four shares may be from adding up to 1.
@@ -114,8 +143,41 @@ impl GaSpec {
         self.selection.check()?;
         let rate = self.mutation_rate;
         require((0.0..=1.0).contains(&rate), "mutation_rate", rate, "a rate from 0 to 1")?;
-        self.mutation.check()
+        self.mutation.check()?;
+        if let Some(sigma) = self.sigma_end {
+            require(sigma > 0.0 && sigma.is_finite(), "sigma_end", sigma, FINITE)?;
+            let expected = "a mutation with a sigma beside it";
+            require(self.mutation.sigma().is_some(), "sigma_end", sigma, expected)?;
+        }
+        match self.initial {
+            Initial::Uniform => Ok(()),
+            Initial::Gaussian { sigma } => {
+                require(sigma > 0.0 && sigma.is_finite(), "initial", sigma, FINITE)
+            }
+        }
     }
+
+    /// The mutation of the generation that lies `progress`, 0 to 1, of the way from the first to
+    /// the last.
+    pub fn mutation_at(&self, progress: f64) -> Mutation {
+        let (Some(start), Some(end)) = (self.mutation.sigma(), self.sigma_end) else {
+            return self.mutation;
+        };
+        let sigma = between(start.into(), end.into(), progress) as f32;
+        match self.mutation {
+            Mutation::Gaussian { .. } => Mutation::Gaussian { sigma },
+            Mutation::EveryGene { .. } => Mutation::EveryGene { sigma },
+            other @ (Mutation::Uniform | Mutation::Additive { .. }) => other,
+        }
+    }
+}
+
+const FINITE: &str = "a finite number above 0";
+
+/// The number that lies `progress`, 0 to 1, of the way from `start` to `end`, both above 0, by
+/// equal ratios.
+pub fn between(start: f64, end: f64, progress: f64) -> f64 {
+    start * libm::pow(end / start, progress)
 }
 
 impl Selection {
@@ -141,9 +203,17 @@ impl Mutation {
         let (setting, size) = match *self {
             Self::Uniform => return Ok(()),
             Self::Additive { amplitude } => ("amplitude", amplitude),
-            Self::Gaussian { sigma } => ("sigma", sigma),
+            Self::Gaussian { sigma } | Self::EveryGene { sigma } => ("sigma", sigma),
         };
-        require(size > 0.0 && size.is_finite(), setting, size, "a finite number above 0")
+        require(size > 0.0 && size.is_finite(), setting, size, FINITE)
+    }
+
+    /// The standard deviation of a mutation that has one.
+    fn sigma(&self) -> Option<f32> {
+        match *self {
+            Self::Uniform | Self::Additive { .. } => None,
+            Self::Gaussian { sigma } | Self::EveryGene { sigma } => Some(sigma),
+        }
     }
 }
 
@@ -176,6 +246,7 @@ mod tests {
     fn every_senseless_setting_is_refused_under_its_own_name() {
         let paper = GaSpec::PAPER;
         let linear = |pressure| Selection::LinearRank { pressure };
+        let annealed = GaSpec { mutation: Mutation::EveryGene { sigma: 0.1 }, ..paper };
         let cases = [
             ("crossover_share", GaSpec { crossover_share: -0.1, ..paper }),
             ("mutation_share", GaSpec { mutation_share: 1.5, ..paper }),
@@ -188,10 +259,32 @@ mod tests {
             ("share", GaSpec { selection: Selection::Truncation { share: 0.0 }, ..paper }),
             ("amplitude", GaSpec { mutation: Mutation::Additive { amplitude: 0.0 }, ..paper }),
             ("sigma", GaSpec { mutation: Mutation::Gaussian { sigma: f32::INFINITY }, ..paper }),
+            ("sigma", GaSpec { mutation: Mutation::EveryGene { sigma: 0.0 }, ..paper }),
+            ("sigma_end", GaSpec { sigma_end: Some(0.1), ..paper }),
+            ("sigma_end", GaSpec { sigma_end: Some(f32::NAN), ..annealed }),
+            ("initial", GaSpec { initial: Initial::Gaussian { sigma: -1.0 }, ..paper }),
         ];
         for (setting, spec) in cases {
             assert_eq!(spec.check().map_err(|error| error.setting), Err(setting), "{spec:?}");
         }
+    }
+
+    /// By hand: half of the way from 0.1 to 0.001 by equal ratios is 0.01.
+    #[test]
+    fn sigma_falls_by_equal_ratios_from_the_first_generation_to_the_last() {
+        for mutation in
+            [|sigma| Mutation::EveryGene { sigma }, |sigma| Mutation::Gaussian { sigma }]
+        {
+            let mutation: fn(f32) -> Mutation = mutation;
+            let spec = GaSpec { mutation: mutation(0.1), sigma_end: Some(0.001), ..GaSpec::PAPER };
+            let at = |progress| spec.mutation_at(progress);
+            assert_eq!([at(0.0), at(1.0)], [0.1, 0.001].map(mutation));
+            let middle = at(0.5).sigma().unwrap();
+            assert!((middle / 0.01 - 1.0).abs() < 1e-6, "{middle}");
+            let kept = GaSpec { sigma_end: None, ..spec };
+            assert_eq!(kept.mutation_at(0.7), kept.mutation);
+        }
+        assert_eq!(GaSpec::PAPER.mutation_at(0.5), Mutation::Uniform);
     }
 
     #[test]

@@ -57,8 +57,8 @@ fn a_manifest_reads_like_this() {
     scenario_sha256 = "715cd70136c76c595c5720c1a0a95f46832beb4dbb5301a007152d685faf76fd"
 
     [formats]
-    manifest = 1
-    checkpoint = 1
+    manifest = 2
+    checkpoint = 2
     blob = 3
 
     [scenario]
@@ -135,10 +135,10 @@ fn damage_is_refused_with_its_line_and_column() {
 #[test]
 fn another_version_is_named_before_its_fields_are_looked_at() {
     let (_base, folder) = run();
-    edited(&folder, "manifest = 1", "manifest = 2\nsomething = \"new\"");
+    edited(&folder, "manifest = 2", "manifest = 1\nsomething = \"new\"");
     assert_eq!(
         refusal(&folder),
-        "RUN/manifest.toml: manifest version 2, this evosteer reads version 1"
+        "RUN/manifest.toml: manifest version 1, this evosteer reads version 2"
     );
 }
 
