@@ -11,6 +11,7 @@ mod console;
 mod lamp;
 mod links;
 mod pages;
+mod presets;
 mod promises;
 mod run_folder;
 mod scenario_keys;
