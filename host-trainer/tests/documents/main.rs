@@ -12,6 +12,7 @@ mod console;
 mod lamp;
 mod links;
 mod pages;
+mod presets;
 mod promises;
 mod run_folder;
 mod scenario_keys;
