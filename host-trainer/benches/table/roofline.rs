@@ -16,13 +16,12 @@ use host_trainer::vector::Instructions;
 use host_trainer::wide::SLOTS;
 
 /// Bytes that a network step reads and writes: each weight once for all cars of a lane; each
-/// input and hidden output of a layer once per group of `neurons` that are summed together.
-fn network_bytes(neurons: u64) -> f64 {
+/// input and hidden output of a layer once per neuron.
+fn network_bytes() -> f64 {
     const H: u64 = 12;
     const I: u64 = 7;
     let weights = (H * I + 3 * H * H + 2 * H + H + 1) as f64 / SLOTS as f64;
-    let groups = H / neurons;
-    let read = groups * (I + H) + groups * (H + H) + H;
+    let read = H * (I + H) + H * (H + H) + H;
     let written = 2 * H + 1;
     4.0 * (weights + (read + written) as f64)
 }
@@ -60,8 +59,7 @@ pub(crate) fn rows(
         let Some(step) = driving.step(*set) else { continue };
         let network = networks.iter().find(|(way, _)| *way == Some(*set));
         let network = network.map_or(f64::NAN, |(_, time)| *time);
-        let neurons = if set.width() == 16 { 4 } else { 2 };
-        let network_bound = bound(&parts.network, network_bytes(neurons), peaks);
+        let network_bound = bound(&parts.network, network_bytes(), peaks);
         let car_bound = bound(&parts.car, 0.0, peaks);
         let beams_bound = bound(&beams, 0.0, peaks);
         let share = |part: &str, time: f64, bound: f64| {
