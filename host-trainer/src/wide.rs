@@ -8,7 +8,7 @@
 //!
 //! [`episode::drive`](crate::episode::drive) is the reference: every operation here is the same
 //! generic function over a wider lane, or the same function called for one car after the other
-//! (what it sees, what it touches, its noise), so each outcome has the bits of that drive.
+//! (its noise, its start), so each outcome has the bits of that drive.
 //!
 //! | look in | for |
 //! | --- | --- |

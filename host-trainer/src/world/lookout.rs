@@ -4,9 +4,9 @@
 //! the few obstacles that a beam can meet first there, or that the body can touch, are found
 //! once: those out of range, outside of the directions, or hidden behind others are left out.
 //! The rest is tested with the same arithmetic as ever, so distances and contacts are those of a
-//! test of all obstacles, to the last bit. One thing is left to rounding: a wall that lies along a beam's line, to the
-//! last digit of both, behind the car or out of range; a test of all obstacles may compute it as
-//! met.
+//! test of all obstacles, to the last bit. One thing is left to rounding: a wall that lies along a
+//! beam's line, to the last digit of both, behind the car or out of range; a test of all obstacles
+//! may compute it as met. Drives alone and in lanes both ask here, so they agree about it.
 //!
 //! | look in | for |
 //! | --- | --- |
@@ -56,7 +56,7 @@ impl Lookout {
     /// cells are looked at where a car turns up.
     pub fn new(obstacles: Arc<Obstacles>, range: f32, body: Body<f32>) -> Self {
         let [low, high] = obstacles.bounds();
-        let grid = Grid::new(low, high);
+        let grid = Grid::new(low, high, Shelf::are_many(&obstacles));
         let shelf = Shelf::new(&obstacles, &grid, range, body);
         Self { slack: shelf.slack(), obstacles, range, body, grid, shelf }
     }

@@ -134,7 +134,7 @@ fn in_every_shipped_world_a_lookout_sees_and_feels_what_every_obstacle_says() {
         }
         let cells = pair.lookout.survey().cells;
         println!("{name}: {} beams met something, {} touches", pair.seen, pair.touched);
-        assert!(pair.seen > poses && pair.touched > 0 && cells > 50, "{name}");
+        assert!(pair.seen > poses && pair.touched > 0 && cells > 20, "{name}: {cells} cells");
     }
 }
 

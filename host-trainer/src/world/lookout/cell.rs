@@ -1,6 +1,6 @@
 //! What beams from one cell can meet in each direction, and what a body there can touch.
 
-use super::candidate;
+use super::candidate::{self, Candidate};
 use super::cone::Cone;
 use super::grid::Arc;
 use super::reach::Reach;
@@ -11,6 +11,9 @@ use controller_core::geometry::Body;
 
 /// Parts of a turn for beams; a power of two.
 pub(super) const BINS: u32 = 128;
+
+/// Bins that are looked at together first.
+const TOGETHER: usize = 8;
 
 /// Parts of a turn for headings; a power of two.
 pub(super) const SECTORS: u32 = 32;
@@ -40,16 +43,25 @@ impl Surroundings {
         mut f: impl FnMut(u32, &[u32], bool),
     ) {
         let candidates = candidate::all(obstacles, cell, self.range, &self.limits);
-        let mut met = Vec::new();
-        let mut places = Vec::new();
-        for (bin, arc) in (0..).zip(&self.bins) {
-            met.clear();
-            met.extend(candidates.iter().filter(|candidate| candidate.is_met(arc)));
-            let joint = met.len() > 1 && Cone::new(cell, arc, &self.limits).keep_in_sight(&mut met);
-            places.clear();
-            places.extend(met.iter().map(|candidate| candidate.id));
-            f(bin, &places, joint);
+        let (mut around, mut met, mut places) = (Vec::new(), Vec::new(), Vec::new());
+        for (few, first) in self.bins.chunks(TOGETHER).zip((0..).step_by(TOGETHER)) {
+            let all = Arc::around(few);
+            around.clear();
+            around.extend(candidates.iter().filter(|candidate| candidate.is_met(&all)));
+            let joint_of_all = self.keep_in_sight(cell, &all, &mut around);
+            for (bin, arc) in (first..).zip(few) {
+                met.clear();
+                met.extend(around.iter().filter(|candidate| candidate.is_met(arc)));
+                let joint = self.keep_in_sight(cell, arc, &mut met);
+                places.clear();
+                places.extend(met.iter().map(|candidate| candidate.id));
+                f(bin, &places, joint || joint_of_all);
+            }
         }
+    }
+
+    fn keep_in_sight(&self, cell: &Rect, arc: &Arc, met: &mut Vec<&Candidate>) -> bool {
+        met.len() > 1 && Cone::new(cell, arc, &self.limits).keep_in_sight(met)
     }
 
     /// Calls `f` for each sector with the places of the obstacles that the body may touch.

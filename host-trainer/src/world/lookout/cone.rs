@@ -42,11 +42,16 @@ impl<'a> Cone<'a> {
         let all = met.len();
         let mut nearest = f64::INFINITY;
         let mut is_chain = false;
+        let mut walked = vec![false; all];
         for seed in 0..met.len() {
             if met[seed].distance > nearest {
                 break;
             }
-            if let Some((behind, walls)) = self.behind(met, seed)
+            // From any wall of a chain it comes out the same.
+            if walked[seed] {
+                continue;
+            }
+            if let Some((behind, walls)) = self.behind(met, seed, &mut walked)
                 && behind < nearest
             {
                 (nearest, is_chain) = (behind, walls > 1);
@@ -61,7 +66,7 @@ impl<'a> Cone<'a> {
 
     /// How far a beam goes at most that crosses the chain through the seed, if all do, and how
     /// many walls that has.
-    fn behind(&self, met: &[&Candidate], seed: usize) -> Option<(f64, usize)> {
+    fn behind(&self, met: &[&Candidate], seed: usize, walked: &mut [bool]) -> Option<(f64, usize)> {
         if !met[seed].shape.is_wall() {
             return None;
         }
@@ -80,6 +85,7 @@ impl<'a> Cone<'a> {
                 let (next, entry) = self.next(met, &chain[..count], wall, end)?;
                 farthest = farthest.max(self.farthest(point));
                 *chain.get_mut(count)? = next;
+                walked[next] = true;
                 count += 1;
                 (wall, end) = (next, 1 - entry);
             }

@@ -4,8 +4,11 @@ use crate::vector::Vector;
 use crate::world::shape::{Point, Rect};
 use std::f32::consts::TAU;
 
-/// Side of a cell, metres.
+/// Side of a cell in a world with few obstacles, metres.
 const SIDE: f32 = 0.125;
+
+/// The same in a world with many, where it takes long to look around from a cell.
+const LARGE_SIDE: f32 = 0.25;
 
 /// Most cells; a larger world has larger ones.
 const MOST_CELLS: usize = 1 << 23;
@@ -29,10 +32,10 @@ pub(super) struct Grid {
 
 impl Grid {
     /// Cells over a rectangle, metres.
-    pub(super) fn new(low: [f32; 2], high: [f32; 2]) -> Self {
+    pub(super) fn new(low: [f32; 2], high: [f32; 2], has_many: bool) -> Self {
         let size = [high[0] - low[0], high[1] - low[1]].map(|size| size.max(f32::MIN_POSITIVE));
         let count = |side: f32| size.map(|size| (size / side).ceil() + 1.0);
-        let mut side = SIDE;
+        let mut side = if has_many { LARGE_SIDE } else { SIDE };
         while count(side)[0] * count(side)[1] > MOST_CELLS as f32 {
             side *= 1.25;
         }
@@ -116,7 +119,17 @@ impl Arc {
     pub(super) fn new(part: usize, parts: u32) -> Self {
         let whole = std::f64::consts::TAU;
         let middle = part as f64 * whole / f64::from(parts);
-        let half = 0.5 * whole / f64::from(parts) + TURN_MARGIN;
+        Self::of(middle, 0.5 * whole / f64::from(parts) + TURN_MARGIN)
+    }
+
+    /// Every direction of some parts that follow each other, less than half a turn in all.
+    pub(super) fn around(parts: &[Self]) -> Self {
+        let [first, .., last] = parts else { return parts[0] };
+        let middle = 0.5 * (first.middle + last.middle);
+        Self::of(middle, last.middle - middle + last.half)
+    }
+
+    fn of(middle: f64, half: f64) -> Self {
         let at = |angle: f64| [libm::cos(angle), libm::sin(angle)];
         Self { middle, half, edges: [at(middle - half), at(middle + half)] }
     }

@@ -116,9 +116,13 @@ pub(super) struct Asked<const N: usize> {
 }
 
 impl Shelf {
+    /// Whether these obstacles are more than there are names.
+    pub(super) fn are_many(obstacles: &Obstacles) -> bool {
+        obstacles.walls().len() + obstacles.discs().len() > MOST
+    }
+
     pub(super) fn new(obstacles: &Obstacles, grid: &Grid, range: f32, body: Body<f32>) -> Self {
         let (walls, discs) = (obstacles.walls(), obstacles.discs());
-        let count = walls.len() + discs.len();
         let limits =
             Limits::new(range, obstacles.largest(), grid.diagonal(), obstacles.joint(range));
         let table = |nothing: Row, wall: fn(&Segment<f32>) -> Row| {
@@ -129,7 +133,7 @@ impl Shelf {
             rows.resize(rows.len().max(usize::from(u8::MAX) + 1), nothing);
             rows.into()
         };
-        let is_large = count > MOST || grid.cells() >= MOST_SHELVES;
+        let is_large = Self::are_many(obstacles) || grid.cells() >= MOST_SHELVES;
         let large = is_large.then(|| Large {
             shelves: bytemuck::zeroed_slice_box(grid.cells() + 1),
             taken: AtomicU32::new(1),
