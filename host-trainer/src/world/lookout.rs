@@ -13,9 +13,11 @@
 //! | `fan` | the beams of a car |
 //! | `grid` | which cell, which part of a turn |
 //! | `beams` | the tests, many beams side by side |
-//! | `shelf` | what is found once for each cell, in words of eight names |
+//! | `shelf` | what is found once for each cell |
+//! | `words`, `asked` | how it is kept in few bytes, and read for many beams at once |
 //! | `cell`, `candidate`, `cone`, `reach`, `rounding` | how it is found, and what may be left out |
 
+mod asked;
 mod beams;
 mod candidate;
 mod cell;
@@ -25,16 +27,18 @@ mod grid;
 mod reach;
 mod rounding;
 mod shelf;
+mod words;
 
 use super::obstacles::Obstacles;
 use crate::vector::Vector;
+use asked::Asked;
 use beams::Beams;
 use cell::{BINS, SECTORS};
 use controller_core::geometry::{Body, Disc, Ray, Segment};
 use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
 use grid::{Grid, part_of_turn};
-use shelf::{Asked, Question, Shelf};
+use shelf::{Question, Shelf};
 use std::sync::Arc;
 
 pub use fan::Fan;

@@ -1,36 +1,21 @@
-//! What has been found out about each cell, in words of eight names.
+//! What has been found out about each cell.
 //!
 //! A name is a byte. In a small world it counts all obstacles, and every cell has its shelf. In a
 //! large one it counts those of its cell, which are listed beside the words, and cells get a
-//! shelf when a car turns up. Memory is asked for at once, but what no car
-//! visits is never touched, and so takes none.
+//! shelf when a car turns up. Memory is asked for at once, but what no car visits is never
+//! touched, and so takes none.
 
+use super::asked::{Asked, ByName, ByPlace, place};
 use super::beams::{self, Row};
 use super::cell::{BINS, SECTORS, Surroundings};
 use super::grid::Grid;
 use super::rounding::Limits;
-use crate::vector::{MOST_LANES, RowOfLane, Vector, ones};
+use super::words::{ALL, JOINT, NAME, NAMES, Word, Words};
+use crate::vector::Vector;
 use crate::world::Obstacles;
 use controller_core::geometry::{Body, Segment};
-use std::collections::HashMap;
-use std::sync::atomic::{AtomicU16, AtomicU32, AtomicU64, Ordering};
-use std::sync::{Mutex, OnceLock, PoisonError};
-
-/// Names, lowest bits first; the highest bit says that they are all there are.
-type Word = u64;
-
-/// Bits of a name.
-const NAME: u32 = u8::BITS;
-
-/// Names in a word.
-const NAMES: usize = 7;
-
-/// The highest bit of a word.
-const ALL: Word = 1 << (Word::BITS - 1);
-
-/// The bit of a word that says: what is left out stands behind walls that meet, and a beam that
-/// passes their ends too closely cannot be sure to meet one of them.
-const JOINT: Word = ALL >> 1;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU16, AtomicU32, Ordering};
 
 /// Names of obstacles; name 0 is that of nothing.
 const MOST: usize = u8::MAX as usize;
@@ -56,14 +41,6 @@ pub(super) struct Shelf {
     /// Lists that do not fit into a word, by shelf; set once the shelf's words are written.
     lists: Box<[OnceLock<Lists>]>,
     large: Option<Large>,
-}
-
-/// Every word once. Few are different, so the shelves hold short numbers.
-#[derive(Debug)]
-struct Words {
-    /// The first is 0: it says nothing.
-    words: Box<[AtomicU64]>,
-    numbers: Mutex<HashMap<Word, u16>>,
 }
 
 /// What a large world has besides.
@@ -100,19 +77,6 @@ pub struct Survey {
     pub seen: Vec<usize>,
     /// Obstacles within the body's reach, for each visited cell and each heading, ascending.
     pub near: Vec<usize>,
-}
-
-/// Questions of `N` times several robots, and the words that answer them.
-///
-/// Everything is written in place: a copy would have to wait for what has just been written.
-pub(super) struct Asked<const N: usize> {
-    words: [[Word; MOST_LANES]; N],
-    /// The shelves that were asked, in a large world.
-    shelves: [[u32; MOST_LANES]; N],
-    /// What is set in any lane's word.
-    any: [Word; N],
-    /// What is set in all of them.
-    all: [Word; N],
 }
 
 impl Shelf {
@@ -198,21 +162,8 @@ impl Shelf {
         parts: u32,
     ) {
         let at = (shelves * V::from(parts as f32) + part).places();
-        if self.large.is_some() {
-            asked.shelves[question] = shelves.places();
-        }
-        let words = self.words.all();
-        let slots = &mut asked.words[question];
-        let (mut any, mut all) = (0, Word::MAX);
-        for lane in 0..V::WIDTH {
-            // Whoever sees a number also sees what it stands for.
-            let number = numbers[at[lane] as usize].load(Ordering::Acquire);
-            let word = words[usize::from(number)].load(Ordering::Relaxed);
-            slots[lane] = word;
-            any |= word;
-            all &= word;
-        }
-        (asked.any[question], asked.all[question]) = (any, all);
+        let shelves = self.large.is_some().then(|| shelves.places());
+        asked.write::<V>(question, &self.words, numbers, &at, shelves);
     }
 
     /// The shelves of these cells.
@@ -257,21 +208,22 @@ impl Shelf {
         question: usize,
         round: usize,
     ) -> [V; 4] {
-        let words = &asked.words[question];
+        let words = asked.words(question);
         match &self.large {
             None => {
                 let table = table.first_chunk().expect("a row for every name");
                 V::rows(ByName { table, words, round })
             }
             Some(Large { places, .. }) => {
-                let shelves = &asked.shelves[question];
+                let shelves = asked.shelves(question);
                 V::rows(ByPlace { table, places, words, shelves, round })
             }
         }
     }
 
     /// Calls `f` with every obstacle that is asked for, after looking around from its cell if nobody
-    /// has; false where there is no such cell, or no room to remember it.
+    /// has. Returns whether what is left out stands behind walls that meet; none where there is no
+    /// such cell, or no room to remember it.
     pub(super) fn each(
         &self,
         grid: &Grid,
@@ -287,8 +239,7 @@ impl Shelf {
             Question::Seen(bin) => (&self.seen, &self.edges, shelf * BINS + bin),
             Question::Near(sector) => (&self.near, &self.faces, shelf * SECTORS + sector),
         };
-        let number = numbers[at as usize].load(Ordering::Relaxed);
-        let word = self.words.all()[usize::from(number)].load(Ordering::Relaxed);
+        let word = self.words.of(&numbers[at as usize]);
         if word & ALL == 0 {
             let (list, joint) = lists.get((word as usize).checked_sub(1)?)?;
             list.iter().for_each(|place| f(&table[*place as usize + 1]));
@@ -412,119 +363,5 @@ impl Shelf {
             seen: counts(BINS, Question::Seen),
             near: counts(SECTORS, Question::Near),
         }
-    }
-}
-
-impl Words {
-    /// Numbers of words.
-    const MOST: usize = 1 << u16::BITS;
-
-    fn new() -> Self {
-        Self { words: bytemuck::zeroed_slice_box(Self::MOST), numbers: Mutex::default() }
-    }
-
-    /// Every word, by number.
-    #[inline(always)]
-    fn all(&self) -> &[AtomicU64; Self::MOST] {
-        self.words.first_chunk().expect("a word for every number")
-    }
-
-    /// The number of this word; none if there are too many.
-    fn number(&self, word: Word) -> Option<u16> {
-        let mut numbers = self.numbers.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = numbers.get(&word) {
-            return Some(*known);
-        }
-        let number = u16::try_from(numbers.len() + 1).ok()?;
-        self.words[usize::from(number)].store(word, Ordering::Relaxed);
-        numbers.insert(word, number);
-        Some(number)
-    }
-}
-
-fn place(shelf: u32, name: u8) -> usize {
-    (shelf as usize) << NAME | usize::from(name)
-}
-
-impl<const N: usize> Asked<N> {
-    /// Most rounds.
-    pub(super) const ROUNDS: usize = NAMES;
-
-    /// No questions yet.
-    #[inline(always)]
-    pub(super) fn new() -> Self {
-        const { assert!(N <= u32::BITS as usize) };
-        Self {
-            words: [[0; MOST_LANES]; N],
-            shelves: [[0; MOST_LANES]; N],
-            any: [0; N],
-            all: [Word::MAX; N],
-        }
-    }
-
-    /// The questions with a name for this round in any lane.
-    #[inline(always)]
-    pub(super) fn with_name(&self, round: usize) -> impl Iterator<Item = usize> + use<N> {
-        let mut questions = 0;
-        for (number, any) in self.any.iter().enumerate() {
-            let name = (*any >> (round as u32 * NAME)) as u8;
-            questions |= u32::from(name != 0) << number;
-        }
-        ones(questions)
-    }
-
-    /// Lanes whose word does not have it all, as bits.
-    #[inline(always)]
-    pub(super) fn unknown<V: Vector>(&self, question: usize) -> u32 {
-        if self.all[question] & ALL != 0 { 0 } else { self.without::<V>(question, ALL) }
-    }
-
-    /// Those and the lanes whose word relies on walls that meet.
-    #[inline(always)]
-    pub(super) fn unsure<V: Vector>(&self, question: usize) -> u32 {
-        self.without::<V>(question, ALL) | !self.without::<V>(question, JOINT)
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn without<V: Vector>(&self, question: usize, flag: Word) -> u32 {
-        let mut lanes = 0;
-        for (lane, word) in self.words[question][..V::WIDTH].iter().enumerate() {
-            lanes |= u32::from(*word & flag == 0) << lane;
-        }
-        lanes
-    }
-}
-
-/// Rows of a small world.
-struct ByName<'a> {
-    table: &'a [Row; 1 << NAME],
-    words: &'a [Word; MOST_LANES],
-    round: usize,
-}
-
-impl RowOfLane for ByName<'_> {
-    #[inline(always)]
-    fn row(&self, lane: usize) -> &Row {
-        let words: &[u8] = bytemuck::must_cast_slice(self.words);
-        &self.table[usize::from(words[lane * 8 + self.round])]
-    }
-}
-
-/// Rows of a large world.
-struct ByPlace<'a> {
-    table: &'a [Row],
-    places: &'a [AtomicU32],
-    words: &'a [Word; MOST_LANES],
-    shelves: &'a [u32; MOST_LANES],
-    round: usize,
-}
-
-impl RowOfLane for ByPlace<'_> {
-    #[inline(always)]
-    fn row(&self, lane: usize) -> &Row {
-        let name = (self.words[lane] >> (self.round as u32 * NAME)) as u8;
-        let place = place(self.shelves[lane], name);
-        &self.table[self.places[place].load(Ordering::Relaxed) as usize]
     }
 }

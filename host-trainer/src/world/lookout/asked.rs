@@ -1,0 +1,145 @@
+//! Many questions at once, and the words that answer them.
+
+use super::beams::Row;
+use super::words::{ALL, JOINT, NAME, NAMES, Word, Words};
+use crate::vector::{MOST_LANES, RowOfLane, Vector, ones};
+use std::sync::atomic::{AtomicU16, AtomicU32, Ordering};
+
+/// Questions of `N` times several robots, and the words that answer them.
+///
+/// Everything is written in place: a copy would have to wait for what has just been written.
+pub(super) struct Asked<const N: usize> {
+    words: [[Word; MOST_LANES]; N],
+    /// The shelves that were asked, in a large world.
+    shelves: [[u32; MOST_LANES]; N],
+    /// What is set in any lane's word.
+    any: [Word; N],
+    /// What is set in all of them.
+    all: [Word; N],
+}
+
+impl<const N: usize> Asked<N> {
+    /// Most rounds.
+    pub(super) const ROUNDS: usize = NAMES;
+
+    /// No questions yet.
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        const { assert!(N <= u32::BITS as usize) };
+        Self {
+            words: [[0; MOST_LANES]; N],
+            shelves: [[0; MOST_LANES]; N],
+            any: [0; N],
+            all: [Word::MAX; N],
+        }
+    }
+
+    /// Writes down the words of one question, whose numbers are at these places, and the shelves in
+    /// a large world.
+    #[inline(always)]
+    pub(super) fn write<V: Vector>(
+        &mut self,
+        question: usize,
+        words: &Words,
+        numbers: &[AtomicU16],
+        at: &[u32; MOST_LANES],
+        shelves: Option<[u32; MOST_LANES]>,
+    ) {
+        if let Some(shelves) = shelves {
+            self.shelves[question] = shelves;
+        }
+        let slots = &mut self.words[question];
+        let (mut any, mut all) = (0, Word::MAX);
+        for lane in 0..V::WIDTH {
+            let word = words.of(&numbers[at[lane] as usize]);
+            slots[lane] = word;
+            any |= word;
+            all &= word;
+        }
+        (self.any[question], self.all[question]) = (any, all);
+    }
+
+    /// The words of one question.
+    #[inline(always)]
+    pub(super) fn words(&self, question: usize) -> &[Word; MOST_LANES] {
+        &self.words[question]
+    }
+
+    /// The shelves that were asked one question, in a large world.
+    #[inline(always)]
+    pub(super) fn shelves(&self, question: usize) -> &[u32; MOST_LANES] {
+        &self.shelves[question]
+    }
+
+    /// The questions with a name for this round in any lane.
+    #[inline(always)]
+    pub(super) fn with_name(&self, round: usize) -> impl Iterator<Item = usize> + use<N> {
+        let mut questions = 0;
+        for (number, any) in self.any.iter().enumerate() {
+            let name = (*any >> (round as u32 * NAME)) as u8;
+            questions |= u32::from(name != 0) << number;
+        }
+        ones(questions)
+    }
+
+    /// Lanes whose word does not have it all, as bits.
+    #[inline(always)]
+    pub(super) fn unknown<V: Vector>(&self, question: usize) -> u32 {
+        if self.all[question] & ALL != 0 { 0 } else { self.without::<V>(question, ALL) }
+    }
+
+    /// Those and the lanes whose word relies on walls that meet.
+    #[inline(always)]
+    pub(super) fn unsure<V: Vector>(&self, question: usize) -> u32 {
+        self.without::<V>(question, ALL) | !self.without::<V>(question, JOINT)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn without<V: Vector>(&self, question: usize, flag: Word) -> u32 {
+        let mut lanes = 0;
+        for (lane, word) in self.words[question][..V::WIDTH].iter().enumerate() {
+            lanes |= u32::from(*word & flag == 0) << lane;
+        }
+        lanes
+    }
+}
+
+/// Rows of a small world.
+pub(super) struct ByName<'a> {
+    pub(super) table: &'a [Row; 1 << NAME],
+    pub(super) words: &'a [Word; MOST_LANES],
+    pub(super) round: usize,
+}
+
+impl RowOfLane for ByName<'_> {
+    #[inline(always)]
+    fn row(&self, lane: usize) -> &Row {
+        // Little-endian, as controller-core demands: the first name is the first byte.
+        let words: &[u8] = bytemuck::must_cast_slice(self.words);
+        &self.table[usize::from(words[lane * 8 + self.round])]
+    }
+}
+
+/// Rows of a large world.
+pub(super) struct ByPlace<'a> {
+    pub(super) table: &'a [Row],
+    pub(super) places: &'a [AtomicU32],
+    pub(super) words: &'a [Word; MOST_LANES],
+    pub(super) shelves: &'a [u32; MOST_LANES],
+    pub(super) round: usize,
+}
+
+impl RowOfLane for ByPlace<'_> {
+    #[inline(always)]
+    fn row(&self, lane: usize) -> &Row {
+        let name = (self.words[lane] >> (self.round as u32 * NAME)) as u8;
+        let place = place(self.shelves[lane], name);
+        &self.table[self.places[place].load(Ordering::Relaxed) as usize]
+    }
+}
+
+/// Where a shelf keeps what a name means.
+pub(super) fn place(shelf: u32, name: u8) -> usize {
+    (shelf as usize) << NAME | usize::from(name)
+}

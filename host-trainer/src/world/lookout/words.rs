@@ -1,0 +1,64 @@
+//! Short lists of obstacles: up to seven names in a word, and every word once.
+
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicU16, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Names, lowest bits first; the highest bit says that they are all there are.
+pub(super) type Word = u64;
+
+/// Bits of a name.
+pub(super) const NAME: u32 = u8::BITS;
+
+/// Names in a word.
+pub(super) const NAMES: usize = 7;
+
+/// The highest bit of a word.
+pub(super) const ALL: Word = 1 << (Word::BITS - 1);
+
+/// The bit of a word that says: what is left out stands behind walls that meet, and a beam that
+/// passes their ends too closely cannot be sure to meet one of them.
+pub(super) const JOINT: Word = ALL >> 1;
+
+/// Every word once. Few are different, so the shelves hold short numbers.
+#[derive(Debug)]
+pub(super) struct Words {
+    /// The first is 0: it says nothing.
+    words: Box<[AtomicU64]>,
+    numbers: Mutex<HashMap<Word, u16>>,
+}
+
+impl Words {
+    /// Numbers of words.
+    pub(super) const MOST: usize = 1 << u16::BITS;
+
+    pub(super) fn new() -> Self {
+        Self { words: bytemuck::zeroed_slice_box(Self::MOST), numbers: Mutex::default() }
+    }
+
+    /// Every word, by number.
+    #[inline(always)]
+    pub(super) fn all(&self) -> &[AtomicU64; Self::MOST] {
+        self.words.first_chunk().expect("a word for every number")
+    }
+
+    /// The word whose number is kept here.
+    #[inline(always)]
+    pub(super) fn of(&self, number: &AtomicU16) -> Word {
+        // Whoever sees a number also sees what it stands for.
+        let number = number.load(Ordering::Acquire);
+        self.all()[usize::from(number)].load(Ordering::Relaxed)
+    }
+
+    /// The number of this word; none if there are too many.
+    pub(super) fn number(&self, word: Word) -> Option<u16> {
+        let mut numbers = self.numbers.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = numbers.get(&word) {
+            return Some(*known);
+        }
+        let number = u16::try_from(numbers.len() + 1).ok()?;
+        self.words[usize::from(number)].store(word, Ordering::Relaxed);
+        numbers.insert(word, number);
+        Some(number)
+    }
+}
