@@ -13,5 +13,6 @@ pub mod replay;
 pub mod reproduce;
 pub mod scenario;
 mod setup;
+mod threads;
 pub mod train;
 pub mod verify;

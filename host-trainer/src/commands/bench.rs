@@ -2,6 +2,7 @@
 
 use super::advice::counted;
 use super::number::whole;
+use super::threads::Threads;
 use crate::bench::{golden, speed, workload};
 use crate::failure::Failure;
 use crate::output::Output;
@@ -15,14 +16,8 @@ use serde::Serialize;
 /// another program.
 #[derive(Clone, Debug, clap::Args)]
 pub struct BenchArgs {
-    /// Threads to work with; all cores if not given
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = whole(1..=1024_u16),
-        allow_negative_numbers = true
-    )]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: Threads,
 
     /// Vector instructions to use: scalar, sse2, avx2 or avx512; the widest of this CPU if not
     /// given
@@ -73,10 +68,7 @@ struct Report {
 ///
 /// Golden steps that come out otherwise: a speed would mean nothing.
 pub fn run(args: &BenchArgs, output: &mut Output) -> Result<(), Failure> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads.map_or(0, usize::from))
-        .build()
-        .map_err(|error| Failure::bad_input(format!("--threads: {error}")))?;
+    let pool = args.threads.pool()?;
     let instructions = args.instructions.unwrap_or_else(Instructions::in_use);
     let report = pool.install(|| measure(instructions, args.repeat, args.short))?;
     output.line(format_args!(

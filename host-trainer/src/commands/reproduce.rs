@@ -5,6 +5,7 @@ mod trials;
 
 use super::advice::{counted, in_shell, this_program};
 use super::number::whole;
+use super::threads::Threads;
 use crate::failure::{Failure, FailureKind};
 use crate::output::Output;
 use crate::reproduce::{PaperScene, Plan, Setup, Trial, method};
@@ -85,14 +86,8 @@ pub struct ReproduceArgs {
     )]
     population: Option<u32>,
 
-    /// Threads to work with; all cores if not given
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = whole(1..=1024_u16),
-        allow_negative_numbers = true
-    )]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: Threads,
 
     /// Print the results as one JSON object
     #[arg(long)]
@@ -153,7 +148,7 @@ pub fn run(args: &ReproduceArgs, stop: &StopFlag, output: &mut Output) -> Result
         None => begin(args)?,
     };
     let cores = || available_parallelism().map_or(1, usize::from);
-    let threads = args.threads.map_or_else(cores, usize::from);
+    let threads = args.threads.number().unwrap_or_else(cores);
     let go_on = format!("{} reproduce --resume {}", this_program(), in_shell(folder.path()));
     let done = trials::all(&folder, &plan, &setups, threads, stop, output)
         .and_then(|trials| finish::finish(&folder, &plan, &setups, &trials, output));

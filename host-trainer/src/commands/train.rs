@@ -7,6 +7,7 @@ use finish::Finished;
 use super::advice::{counted, in_shell, this_program};
 use super::number::whole;
 use super::setup::{ScenarioOptions, can_draw, problem};
+use super::threads::Threads;
 use crate::checkpoint::Checkpoints;
 use crate::failure::{Failure, FailureKind};
 use crate::output::{Output, Progress};
@@ -49,14 +50,8 @@ pub struct TrainArgs {
     #[arg(long, default_value_t = RunSeed(1), allow_negative_numbers = true)]
     seed: RunSeed,
 
-    /// Threads to work with; all cores if not given
-    #[arg(
-        long,
-        value_name = "N",
-        value_parser = whole(1..=1024_u16),
-        allow_negative_numbers = true
-    )]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: Threads,
 
     /// Generations to run, in all
     #[arg(
@@ -110,10 +105,7 @@ struct Run {
 /// Anything wrong with scenario, options or run folder; a signal, after the checkpoint is
 /// written.
 pub fn run(args: &TrainArgs, stop: &StopFlag, output: &mut Output) -> Result<(), Failure> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads.map_or(0, usize::from))
-        .build()
-        .map_err(|error| Failure::bad_input(format!("--threads: {error}")))?;
+    let pool = args.threads.pool()?;
     let run = match &args.resume {
         Some(folder) => Run::resume(folder, args.generations, output)?,
         None => Run::begin(args)?,
