@@ -24,6 +24,8 @@ pub struct Outcome {
     pub path_length: f32,
     /// Metres between front axle and target at the end.
     pub distance_to_target: f32,
+    /// Where the front axle was at the end: x and y, metres.
+    pub end: [f32; 2],
 }
 
 impl Outcome {
@@ -140,6 +142,7 @@ fn run(
         steps,
         path_length: car.path_length,
         distance_to_target: car.distance_to_target(),
+        end: [car.pose().x, car.pose().y],
     }
 }
 

@@ -172,6 +172,7 @@ mod tests {
             steps: 40,
             path_length: 4.0,
             distance_to_target: 1.0,
+            end: [0.0; 2],
         };
         let drives = [outcome(true, 0), outcome(true, 2), outcome(false, 0), outcome(false, 9)];
         let evaluation = Evaluation::summary(&drives, RunSeed(1));

@@ -10,9 +10,11 @@
 //! | [`population`] | genomes as rows of one matrix |
 //! | [`state`] | what a checkpoint must keep |
 //! | [`ga`] | the paper's genetic algorithm and its operators |
+//! | [`novelty`] | selection by what nobody has done yet, in place of cost |
 
 pub mod cost;
 pub mod ga;
+pub mod novelty;
 pub mod population;
 pub mod state;
 
@@ -21,6 +23,7 @@ use ga::settings::require;
 use ga::{Ga, GaSpec, Initial, Mutation, Outlook, Selection, SettingError};
 
 pub use cost::{Cost, best_index, ranking};
+pub use novelty::{Novelty, NoveltySpec};
 pub use population::Population;
 pub use state::{RestoreError, State};
 

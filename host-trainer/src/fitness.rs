@@ -68,7 +68,15 @@ mod tests {
     const PAIR: Pair = Pair { start: [1.0, 1.0, 0.0], goal: [4.0, 5.0] };
 
     fn outcome(reached: bool, collisions: u32, path_length: f32, distance: f32) -> Outcome {
-        Outcome { reached, collisions, steps: 60, path_length, distance_to_target: distance }
+        let steps = 60;
+        Outcome {
+            reached,
+            collisions,
+            steps,
+            path_length,
+            distance_to_target: distance,
+            ..Outcome::default()
+        }
     }
 
     fn of_one(kind: FitnessKind, outcome: Outcome) -> f64 {

@@ -15,11 +15,13 @@
 //! | [`spread`] | medians, quartiles and intervals over seeds; seed against seed |
 //! | [`results`], [`table`] | all numbers, as `results.json` and as `results.csv` |
 //! | [`study`] | trials and numbers as the report shows them |
+//! | [`maze`] | not the paper's: novelty search in mazes, beside its own literature |
 //!
 //! Equal plans give equal bytes, on any number of threads and across interruptions.
 
 pub mod claim;
 pub mod failures;
+pub mod maze;
 pub mod method;
 pub mod plan;
 pub mod results;

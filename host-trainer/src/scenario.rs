@@ -43,6 +43,7 @@ use controller_core::observation::{BEAMS, BeamMount, Encoding};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
+pub use crate::evolve::NoveltySpec;
 pub use crate::evolve::ga::{GaSpec, Initial, Mutation, Selection};
 pub use catalogue::{all_shipped, find};
 pub use keys::{Key, all_keys};
@@ -373,6 +374,13 @@ pub struct TrainingSpec {
     /// Pairs, drawn for this alone, on which the best of each generation compete to be the
     /// champion; 0 takes the best of the last generation. No matter for listed pairs.
     pub validation_pairs: u32,
+    /// Whether the run ends with the first generation in which somebody reaches the targets of
+    /// all pairs.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub until_reached: bool,
     /// The genetic algorithm.
     pub ga: GaSpec,
+    /// How novelty is measured, if that is what selects; none selects by cost.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub novelty: Option<NoveltySpec>,
 }

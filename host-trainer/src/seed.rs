@@ -56,11 +56,13 @@ pub enum Purpose {
     ValidationPairs = 9,
     /// Noise, offsets and randomised vehicles of the drives that choose the champion; index: pair.
     ValidationDrive = 10,
+    /// Which individuals of one generation join the archive of a novelty search.
+    NoveltyArchive = 11,
 }
 
 impl Purpose {
     /// Every purpose, by number.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::InitialPopulation,
         Self::Breeding,
         Self::TrainingPairs,
@@ -71,6 +73,7 @@ impl Purpose {
         Self::EvaluationDrive,
         Self::ValidationPairs,
         Self::ValidationDrive,
+        Self::NoveltyArchive,
     ];
 }
 

@@ -14,7 +14,8 @@ mod scales;
 use crate::episode::Outcome;
 use crate::evaluation;
 use crate::evolve::ga::{Ga, Outlook};
-use crate::evolve::{Cost, Optimizer, Population, RestoreError, SearchSpace, State, best_index};
+use crate::evolve::novelty::Behaviours;
+use crate::evolve::{Cost, Novelty, Optimizer, Population, RestoreError, SearchSpace, State};
 use crate::failure::Failure;
 use crate::fingerprint;
 use crate::fitness;
@@ -94,6 +95,10 @@ pub struct Training<'a> {
     seed: RunSeed,
     sampler: PairSampler<'a>,
     search: Box<dyn Optimizer>,
+    /// What the search is told in place of costs, if anything.
+    novelty: Option<Novelty>,
+    /// Where the drives of the last judged generation ended.
+    ends: Behaviours,
     history: Vec<MetricsRow>,
     best: Option<Best>,
     /// Pairs that the current generation keeps from the one before.
@@ -128,14 +133,35 @@ impl<'a> Training<'a> {
         let search: Box<dyn Optimizer> = Box::new(search);
         let run = run_id(&problem.scenario, seed);
         let (history, kept) = (Vec::new(), Vec::new());
-        Ok(Self { problem, run, seed, sampler, search, history, best: None, kept, validation })
+        let coordinates = 2 * count_of_pairs(&problem.scenario) as usize;
+        let novelty = spec.novelty.map(|novelty| Novelty::new(novelty, coordinates, seed));
+        Ok(Self {
+            problem,
+            run,
+            seed,
+            sampler,
+            search,
+            novelty,
+            ends: Behaviours::none(coordinates),
+            history,
+            best: None,
+            kept,
+            validation,
+        })
     }
 
     /// The state to go on from.
     pub fn snapshot(&self) -> Snapshot {
-        let Self { run, search, history, best, kept, .. } = self;
+        let Self { run, search, novelty, history, best, kept, .. } = self;
         let (history, best, kept) = (history.clone(), best.clone(), kept.clone());
-        Snapshot { run: *run, search: search.save(), history, best, kept }
+        let search = match novelty {
+            None => search.save(),
+            Some(novelty) => State::Novelty {
+                search: Box::new(search.save()),
+                archive: novelty.archive().clone(),
+            },
+        };
+        Snapshot { run: *run, search, history, best, kept }
     }
 
     /// Goes on from a saved state of the same run.
@@ -147,7 +173,16 @@ impl<'a> Training<'a> {
         if snapshot.run != self.run {
             return Err(ResumeError::OtherRun);
         }
-        self.search.restore(snapshot.search).map_err(ResumeError::Search)?;
+        let (search, archive) = match (snapshot.search, &self.novelty) {
+            (State::Novelty { search, archive }, Some(_)) => (*search, Some(archive)),
+            (search @ State::Ga(_), None) => (search, None),
+            _ => return Err(ResumeError::Search(RestoreError::Method)),
+        };
+        self.search.restore(search).map_err(ResumeError::Search)?;
+        if let Some((novelty, archive)) = self.novelty.as_mut().zip(archive) {
+            let (generation, population) = (self.search.generation(), self.search.ask().size());
+            novelty.restore(archive, generation, population).map_err(ResumeError::Search)?;
+        }
         let (found, expected) = (snapshot.history.len(), self.search.generation());
         if found as u64 != u64::from(expected) {
             return Err(ResumeError::History { found, expected });
@@ -161,6 +196,29 @@ impl<'a> Training<'a> {
     /// Generations judged so far.
     pub fn generation(&self) -> u32 {
         self.search.generation()
+    }
+
+    /// Whether somebody reached the targets of all pairs in a run that
+    /// [ends](TrainingSpec::until_reached) with that.
+    pub fn is_solved(&self) -> bool {
+        let last = self.history.last();
+        self.problem.scenario.training.until_reached && last.is_some_and(|row| row.reached == 1.0)
+    }
+
+    /// Whether there is nothing left to do.
+    pub fn is_over(&self) -> bool {
+        self.generation() >= self.problem.scenario.training.generations || self.is_solved()
+    }
+
+    /// What a search by novelty remembers: where drives of earlier generations ended.
+    pub fn archive(&self) -> Option<&Behaviours> {
+        self.novelty.as_ref().map(Novelty::archive)
+    }
+
+    /// Where the drives of the last generation ended that was judged here: one point for each
+    /// individual, with x and y of each pair.
+    pub fn ends(&self) -> &Behaviours {
+        &self.ends
     }
 
     /// One row per judged generation.
@@ -218,13 +276,29 @@ impl<'a> Training<'a> {
             .chunks(pairs.len())
             .map(|drives| fitness::total(scenario, &pairs, drives))
             .collect();
-        let best = best_index(&costs).expect("a population has at least two individuals");
+        let best = self.best_of(&costs, &drives, pairs.len());
         let Some(cost) = self.validated(best, costs[best], stop) else { return Ok(None) };
         let row = row::row(generation, &costs, &drives, pairs.len(), best);
-        self.keep(generation, cost, best);
+        let solves = self.problem.scenario.training.until_reached && row.reached == 1.0;
+        self.keep(generation, cost, best, solves);
         self.kept = hard::hardest(&pairs, &drives, scenario.pairs.mine);
-        self.search.tell(&costs);
+        self.ends = ends(&drives, pairs.len());
+        match &mut self.novelty {
+            None => self.search.tell(&costs),
+            Some(novelty) => self.search.tell(&novelty.judge(generation, &self.ends)),
+        }
         Ok(Some(self.history.push_mut(row)))
+    }
+
+    /// Who costs least; where the run ends with the targets reached, those who reach all of them
+    /// come first, whatever they cost.
+    fn best_of(&self, costs: &[Cost], drives: &[Outcome], pairs: usize) -> usize {
+        let until_reached = self.problem.scenario.training.until_reached;
+        let misses = |index: usize| {
+            until_reached && !drives[index * pairs..][..pairs].iter().all(|drive| drive.reached)
+        };
+        let order = (0..costs.len()).min_by_key(|&index| (misses(index), costs[index]));
+        order.expect("a population has at least two individuals")
     }
 
     /// What an individual costs on the validation pairs, or `cost` if there are none; none if
@@ -240,10 +314,10 @@ impl<'a> Training<'a> {
         Some(fitness::total(&self.problem.scenario, &self.validation, &drives))
     }
 
-    fn keep(&mut self, generation: u32, cost: Cost, index: usize) {
+    fn keep(&mut self, generation: u32, cost: Cost, index: usize, solves: bool) {
         let comparable = !self.validation.is_empty() || self.problem.is_stationary();
         let known = self.best.as_ref().filter(|_| comparable);
-        if known.is_none_or(|known| cost < known.cost) {
+        if solves || known.is_none_or(|known| cost < known.cost) {
             let genome = self.search.ask().genome(index).to_vec();
             self.best = Some(Best { genome, cost, generation, kept: self.kept.clone() });
         }
@@ -287,12 +361,7 @@ pub fn too_large(scenario: &Scenario) -> Option<Complaint> {
         let title = "the population is too large for this network";
         return Some(Complaint::new("training.population", title, detail).or_at("network.hidden"));
     }
-    let pairs = match &scenario.pairs.source {
-        PairSource::Drawn { count, .. } => {
-            u64::from(*count).max(scenario.pairs.count_end.unwrap_or(0).into())
-        }
-        PairSource::Listed(pairs) => pairs.len() as u64,
-    };
+    let pairs = count_of_pairs(scenario);
     if population * pairs > MOST_DRIVES {
         let detail = format!(
             "found {population} individuals with {pairs} pairs each, expected at most \
@@ -303,6 +372,25 @@ pub fn too_large(scenario: &Scenario) -> Option<Complaint> {
         return Some(complaint.or_at("training.population").or_at("pairs.list"));
     }
     None
+}
+
+/// Pairs of the generation that has most of them.
+fn count_of_pairs(scenario: &Scenario) -> u64 {
+    match &scenario.pairs.source {
+        PairSource::Drawn { count, .. } => {
+            u64::from(*count).max(scenario.pairs.count_end.unwrap_or(0).into())
+        }
+        PairSource::Listed(pairs) => pairs.len() as u64,
+    }
+}
+
+/// What each individual did: where its drives ended.
+fn ends(drives: &[Outcome], pairs: usize) -> Behaviours {
+    let mut ends = Behaviours::none(2 * pairs);
+    for drive in drives {
+        ends.extend(&drive.end);
+    }
+    ends
 }
 
 /// Every individual's drives, all of the first individual, then of the second; none once `stop`

@@ -222,7 +222,7 @@ impl Run {
             saved_generation = Some(generation);
             Ok::<(), Failure>(())
         };
-        while training.generation() < total && stop.requested().is_none() {
+        while !training.is_over() && stop.requested().is_none() {
             let begun = Instant::now();
             let Some(&row) = training.step_unless(stop)? else { break };
             // A clock that did not move must not make the speed infinite.
@@ -238,7 +238,7 @@ impl Run {
         progress.finish();
         metrics.sync()?;
         save(&training)?;
-        if training.generation() == total
+        if training.is_over()
             && finish::finish(&folder, &problem, seed, &training, stop, output)? == Finished::Whole
         {
             return Ok(());

@@ -160,7 +160,9 @@ impl Optimizer for Ga {
     }
 
     fn restore(&mut self, state: State) -> Result<(), RestoreError> {
-        let State::Ga(GaState { seed, generation, population }) = state;
+        let State::Ga(GaState { seed, generation, population }) = state else {
+            return Err(RestoreError::Method);
+        };
         if seed != self.seed {
             return Err(RestoreError::Seed { found: seed.0, expected: self.seed.0 });
         }

@@ -5,6 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::ga::GaState;
+use super::novelty::Archive;
 
 /// Everything a search method needs to go on, one variant per method.
 ///
@@ -13,6 +14,13 @@ use super::ga::GaState;
 pub enum State {
     /// Of the genetic algorithm.
     Ga(GaState),
+    /// Of any method that is told novelty in place of cost.
+    Novelty {
+        /// Of the method.
+        search: Box<State>,
+        /// What earlier generations did.
+        archive: Archive,
+    },
 }
 
 /// Why a saved state does not belong to this search.
@@ -39,6 +47,15 @@ pub enum RestoreError {
         /// In this search.
         expected: usize,
     },
+    /// Of a search by cost, where this one goes by novelty, or the other way round.
+    Method,
+    /// Not what so many generations leave in the archive.
+    Archive {
+        /// Coordinates in the state.
+        found: u64,
+        /// Coordinates that there must be.
+        expected: u64,
+    },
     /// A gene outside the bounds, or `NaN`.
     Gene {
         /// Which genome.
@@ -63,6 +80,10 @@ impl fmt::Display for RestoreError {
             }
             Self::GenomeLen { found, expected } => {
                 write!(f, "the saved search has {found} genes per genome, expected {expected}")
+            }
+            Self::Method => f.write_str("one of both searches by novelty, the other by cost"),
+            Self::Archive { found, expected } => {
+                write!(f, "the saved archive has {found} coordinates, expected {expected}")
             }
             Self::Gene { individual, gene, found, bound } => write!(
                 f,

@@ -4,12 +4,14 @@
 //! have a hundred thousand edges, which fit into one path but not into one element each.
 
 mod drive;
+mod ends;
 mod frame;
 mod tasks;
 mod world;
 
 pub(super) use drive::trajectory_on_shared_world;
 pub use drive::trajectory_svg;
+pub use ends::ends_svg;
 pub(super) use frame::FONTS;
 pub use tasks::tasks_svg;
 pub(super) use world::shared_world;

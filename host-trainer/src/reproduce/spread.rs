@@ -79,7 +79,7 @@ pub struct SeedBySeed {
 
 impl SeedBySeed {
     /// Compares pairs of (this variant, the other); larger is better, equal ones count for none.
-    pub fn of(pairs: impl Iterator<Item = (u32, u32)>) -> Self {
+    pub fn of<T: Ord>(pairs: impl Iterator<Item = (T, T)>) -> Self {
         let (mut better, mut worse) = (0, 0);
         for (this, other) in pairs {
             match this.cmp(&other) {

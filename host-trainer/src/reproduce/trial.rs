@@ -2,9 +2,10 @@
 
 use super::failures::Ending;
 use super::setup::Setup;
+use super::workers::Job;
 use crate::checkpoint;
 use crate::evaluation::{self, Evaluation, Share};
-use crate::failure::{Failure, FailureKind};
+use crate::failure::Failure;
 use crate::pairs::PairSampler;
 use crate::problem::{evaluation_drive, training_drive};
 use crate::report::data::Drive;
@@ -16,6 +17,7 @@ use crate::training::{Best, Training};
 use crate::{files, picture};
 use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;
+use std::path::Path;
 
 /// A trial, done: enough to draw and count everything without training again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -78,6 +80,23 @@ impl Stage {
     }
 }
 
+/// A trial to be done.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// What.
+    pub setup: &'a Setup,
+    /// From which seed.
+    pub seed: RunSeed,
+}
+
+impl Job for Task<'_> {
+    type Trial = Trial;
+
+    fn run(&self, stop: &StopFlag, judged: impl FnMut() -> bool) -> Result<Option<Trial>, Failure> {
+        Trial::run(self.setup, self.seed, stop, judged)
+    }
+}
+
 impl Trial {
     /// Trains and judges on the current rayon pool; none if `stop` was raised meanwhile, or
     /// `judged` (called after every generation) says no.
@@ -133,14 +152,7 @@ impl Trial {
         if (trial.setup, trial.seed) == (setup.fingerprint(), seed.0) {
             return Ok(Some(trial));
         }
-        Err(Failure::new(
-            FailureKind::BadInput,
-            format!(
-                "--resume: {} was made with other settings than this evosteer's; begin again with \
-                 another --out",
-                path.display()
-            ),
-        ))
+        Err(other_settings(&path))
     }
 
     /// Removes what a killed process left among the trials.
@@ -152,6 +164,15 @@ impl Trial {
         let trials = folder.join(Setup::TRIALS);
         if trials.is_dir() { files::remove_strays(&trials).map(drop) } else { Ok(()) }
     }
+}
+
+/// Refuses a kept trial that this version would not make.
+pub(super) fn other_settings(path: &Path) -> Failure {
+    Failure::bad_input(format!(
+        "--resume: {} was made with other settings than this evosteer's; begin again with another \
+         --out",
+        path.display()
+    ))
 }
 
 impl Stage {

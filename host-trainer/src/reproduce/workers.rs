@@ -3,27 +3,33 @@
 //! A generation of the paper's is too little work for many threads; whole trials keep them busy,
 //! and wait for each other only at the end. What a trial gives does not depend on where it runs.
 
-use super::setup::Setup;
-use super::trial::Trial;
 use crate::failure::Failure;
-use crate::seed::RunSeed;
 use crate::signals::StopFlag;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Sender};
 use std::thread;
 
 /// A trial to be done.
-#[derive(Clone, Copy, Debug)]
-pub struct Job<'a> {
-    /// What.
-    pub setup: &'a Setup,
-    /// From which seed.
-    pub seed: RunSeed,
+pub trait Job: Sync {
+    /// What it gives.
+    type Trial: Send;
+
+    /// Does it on the current rayon pool; none if `stop` was raised meanwhile, or `judged` (called
+    /// after every generation) says no.
+    ///
+    /// # Errors
+    ///
+    /// What makes the trial impossible.
+    fn run(
+        &self,
+        stop: &StopFlag,
+        judged: impl FnMut() -> bool,
+    ) -> Result<Option<Self::Trial>, Failure>;
 }
 
 /// What happened in one of the jobs.
 #[derive(Debug)]
-pub enum Event {
+pub enum Event<T> {
     /// A generation was judged.
     Generation {
         /// Which job.
@@ -34,7 +40,7 @@ pub enum Event {
         /// Which job.
         job: usize,
         /// What it gave.
-        trial: Trial,
+        trial: T,
     },
 }
 
@@ -44,11 +50,11 @@ pub enum Event {
 /// # Errors
 ///
 /// The first failure of a job or of `each`.
-pub fn run(
-    jobs: &[Job<'_>],
+pub fn run<J: Job>(
+    jobs: &[J],
     threads: usize,
     stop: &StopFlag,
-    mut each: impl FnMut(Event) -> Result<(), Failure>,
+    mut each: impl FnMut(Event<J::Trial>) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let workers = threads.min(jobs.len()).max(1);
     let next = AtomicUsize::new(0);
@@ -70,12 +76,12 @@ pub fn run(
     })
 }
 
-fn work(
-    jobs: &[Job<'_>],
+fn work<J: Job>(
+    jobs: &[J],
     threads: usize,
     next: &AtomicUsize,
     stop: &StopFlag,
-    tell: &Sender<Result<Event, Failure>>,
+    tell: &Sender<Result<Event<J::Trial>, Failure>>,
 ) -> Result<(), Failure> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
@@ -83,9 +89,9 @@ fn work(
         .map_err(|error| Failure::bad_input(format!("--threads: {error}")))?;
     while stop.requested().is_none() {
         let job = next.fetch_add(1, Ordering::Relaxed);
-        let Some(Job { setup, seed }) = jobs.get(job) else { break };
+        let Some(todo) = jobs.get(job) else { break };
         let judged = || tell.send(Ok(Event::Generation { job })).is_ok();
-        let Some(trial) = pool.install(|| Trial::run(setup, *seed, stop, judged))? else { break };
+        let Some(trial) = pool.install(|| todo.run(stop, judged))? else { break };
         if tell.send(Ok(Event::Done { job, trial })).is_err() {
             break;
         }
@@ -96,15 +102,17 @@ fn work(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reproduce::sample;
+    use crate::reproduce::trial::Task;
+    use crate::reproduce::{Trial, sample};
+    use crate::seed::RunSeed;
 
     fn trials(threads: usize) -> Vec<Trial> {
         let plan = sample::plan();
         let setups = plan.setups().unwrap();
         let seeds = plan.seeds();
-        let jobs: Vec<Job<'_>> = setups
+        let jobs: Vec<Task<'_>> = setups
             .iter()
-            .flat_map(|setup| seeds.clone().map(move |seed| Job { setup, seed }))
+            .flat_map(|setup| seeds.clone().map(move |seed| Task { setup, seed }))
             .collect();
         let mut done: Vec<Option<Trial>> = vec![None; jobs.len()];
         run(&jobs, threads, &StopFlag::default(), |event| {
@@ -126,7 +134,7 @@ mod tests {
     #[test]
     fn a_raised_flag_ends_the_work_without_half_a_trial() {
         let setups = sample::plan().setups().unwrap();
-        let jobs = [1, 2, 3].map(|seed| Job { setup: &setups[0], seed: RunSeed(seed) });
+        let jobs = [1, 2, 3].map(|seed| Task { setup: &setups[0], seed: RunSeed(seed) });
         let stop = StopFlag::default();
         let mut done = 0;
         run(&jobs, 2, &stop, |event| {
@@ -141,7 +149,7 @@ mod tests {
     #[test]
     fn a_result_that_cannot_be_kept_ends_the_work() {
         let setups = sample::plan().setups().unwrap();
-        let jobs = [1, 2, 3, 4].map(|seed| Job { setup: &setups[0], seed: RunSeed(seed) });
+        let jobs = [1, 2, 3, 4].map(|seed| Task { setup: &setups[0], seed: RunSeed(seed) });
         let mut events = 0;
         let failed = run(&jobs, 1, &StopFlag::default(), |_| {
             events += 1;

@@ -18,6 +18,7 @@ pub(super) fn complaints(scenario: &Scenario) -> Vec<Complaint> {
     if let Err(error) = scenario.training.ga.check() {
         found.push(search(&error));
     }
+    novelty(scenario, &mut found);
     found
 }
 
@@ -248,6 +249,27 @@ fn pair_in_room(scenario: &Scenario, index: usize, pair: &Pair, found: &mut Vec<
             "found {distance:.2} m between car and goal, expected more than the target's radius, {radius} m"
         );
         found.push(Complaint::new(key, "the target is reached before the car moves", detail));
+    }
+}
+
+/// Where drives end says how alike they were only if they had the same tasks.
+fn novelty(scenario: &Scenario, found: &mut Vec<Complaint>) {
+    let TrainingSpec { population, novelty, until_reached, .. } = scenario.training;
+    let changing = matches!(scenario.pairs.source, PairSource::Drawn { resample: true, .. });
+    for (asked, key) in
+        [(novelty.is_some(), "training.novelty"), (until_reached, "training.until_reached")]
+    {
+        if asked && changing {
+            let title = format!("`{key}` needs the same pairs in each generation");
+            let detail = "found new pairs each time, expected pairs.resample = false";
+            found.push(Complaint::new("pairs.resample", title, detail).or_at(key));
+        }
+    }
+    if let Some(Err(error)) = novelty.map(|novelty| novelty.check(population)) {
+        let detail = format!("found {} of {population}, expected {}", error.found, error.expected);
+        let key = format!("training.novelty.{}", error.setting);
+        let title = "the settings of the novelty search do not fit together";
+        found.push(Complaint::new(key, title, detail).or_at("training.population"));
     }
 }
 

@@ -18,17 +18,20 @@ pub enum Preset {
     Paper,
     /// Drives clean where it has never been: more pairs, other costs, another mutation.
     Robust,
+    /// Searches for what nobody has done yet, until a target is reached: for mazes.
+    Novelty,
 }
 
 impl Preset {
     /// Every preset, in the order they are listed to people.
-    pub const ALL: [Self; 2] = [Self::Paper, Self::Robust];
+    pub const ALL: [Self; 3] = [Self::Paper, Self::Robust, Self::Novelty];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
             Self::Robust => "robust",
+            Self::Novelty => "novelty",
         }
     }
 
@@ -37,6 +40,7 @@ impl Preset {
         match self {
             Self::Paper => "",
             Self::Robust => include_str!("robust.toml"),
+            Self::Novelty => include_str!("novelty.toml"),
         }
     }
 
@@ -119,7 +123,9 @@ pub(super) fn paper() -> Scenario {
             generations: 60,
             weight_bound: 1.0,
             validation_pairs: 0,
+            until_reached: false,
             ga: GaSpec::PAPER,
+            novelty: None,
         },
     }
 }

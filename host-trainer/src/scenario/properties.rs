@@ -147,15 +147,22 @@ fn any_training() -> impl Strategy<Value = TrainingSpec> {
             fan_in,
         },
     );
-    (2_u32..1000, 1_u32..1000, 0.1_f32..10.0, 0_u32..1000, ga).prop_map(
-        |(population, generations, weight_bound, validation_pairs, ga)| TrainingSpec {
+    let novelty = (1_u32..1000, 0_u32..=2)
+        .prop_map(|(neighbours, archive_growth)| NoveltySpec { neighbours, archive_growth });
+    let novelty = proptest::option::of(novelty);
+    let sizes = (2_u32..1000, 1_u32..1000, 0.1_f32..10.0, 0_u32..1000);
+    (sizes, ga, any::<bool>(), novelty).prop_map(|(sizes, ga, until_reached, novelty)| {
+        let (population, generations, weight_bound, validation_pairs) = sizes;
+        TrainingSpec {
             population,
             generations,
             weight_bound,
             validation_pairs,
+            until_reached,
             ga,
-        },
-    )
+            novelty,
+        }
+    })
 }
 
 fn any_scenario() -> impl Strategy<Value = Scenario> {
@@ -192,7 +199,10 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
     let names = ("[A-Za-z0-9_-]{1,64}", "[^\\p{C}]{0,80}");
     let halves = (any_world(), any_vehicle(), any_sensors(), network);
     (names, halves, episode, costs, any_pairs(), any_training()).prop_map(
-        |(names, (world, vehicle, sensors, network), episode, costs, pairs, training)| {
+        |(names, (world, vehicle, sensors, network), episode, costs, pairs, mut training)| {
+            if matches!(pairs.source, PairSource::Drawn { resample: true, .. }) {
+                (training.until_reached, training.novelty) = (false, None);
+            }
             let ([distance, length, collision, bonus], [time, progress], (_, kind)) = costs;
             Scenario {
                 name: names.0,

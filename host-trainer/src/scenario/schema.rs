@@ -290,7 +290,12 @@ impl Record for TrainingSpec {
         let pairs = Whole { low: 0, high: 100_000 };
         let validation = &mut self.validation_pairs;
         v.value("validation_pairs", validation, pairs, "choose the champion; 0: the last best");
+        let mut until_reached = self.until_reached.then_some(true);
+        let about = "end when somebody reaches all targets; off if left out";
+        v.value("until_reached", &mut until_reached, shapes::Maybe(Flag), about);
+        self.until_reached = until_reached.unwrap_or(false);
         v.section("ga", &mut self.ga);
+        v.optional_section("novelty", &mut self.novelty, NoveltySpec::USUAL);
     }
 }
 
@@ -312,5 +317,15 @@ impl Record for GaSpec {
         v.value("sigma_end", &mut self.sigma_end, sigma, "sigma in the last generation");
         v.value("initial", &mut self.initial, words::INITIAL, "how the first genes are drawn");
         v.value("fan_in", &mut self.fan_in, Flag, "sigmas are for 3 inputs; more, smaller steps");
+    }
+}
+
+impl Record for NoveltySpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        let most = *TrainingSpec::POPULATION.end();
+        let neighbours = Whole { low: 1, high: most };
+        v.value("neighbours", &mut self.neighbours, neighbours, "k, the nearest that count");
+        let growth = Whole { low: 0, high: most };
+        v.value("archive_growth", &mut self.archive_growth, growth, "kept of each generation");
     }
 }

@@ -37,6 +37,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     entry!("barn_000", "worlds/barn_000.toml"),
     entry!("barn_264", "worlds/barn_264.toml"),
     entry!("medium_maze", "worlds/medium_maze.toml"),
+    entry!("switchback_maze", "worlds/switchback_maze.toml"),
 ];
 
 macro_rules! file {

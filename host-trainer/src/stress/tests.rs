@@ -4,7 +4,7 @@ use super::*;
 use crate::scenario::{Preset, RandomiseSpec, Scenario, VehicleSpec};
 
 fn outcome(clean: bool) -> Outcome {
-    Outcome { reached: clean, collisions: 0, steps: 9, path_length: 1.0, distance_to_target: 0.0 }
+    Outcome { reached: clean, steps: 9, path_length: 1.0, ..Outcome::default() }
 }
 
 /// 1000 drives, of which this many are clean.

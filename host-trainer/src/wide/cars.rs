@@ -102,12 +102,14 @@ impl<V: Vector> Cars<V> {
     /// How the drive in this lane has gone so far.
     pub(super) fn outcome(&self, lane: usize, steps: u32, reached: bool) -> Outcome {
         let at = |(x, y): (V, V)| [x.lanes()[lane], y.lanes()[lane]];
+        let end = at((self.pose.x, self.pose.y));
         Outcome {
             reached,
             collisions: self.collisions.lanes()[lane] as u32,
             steps,
             path_length: self.path_length.lanes()[lane],
-            distance_to_target: distance(at((self.pose.x, self.pose.y)), at(self.target.centre)),
+            distance_to_target: distance(end, at(self.target.centre)),
+            end,
         }
     }
 

@@ -116,9 +116,10 @@ fn alone(problem: &Problem, genomes: &[f32], pairs: &[Pair], seed: u64) -> Vec<O
     outcomes
 }
 
-fn bits(outcome: &Outcome) -> (bool, u32, u32, u32, u32) {
-    let Outcome { reached, collisions, steps, path_length, distance_to_target } = outcome;
-    (*reached, *collisions, *steps, path_length.to_bits(), distance_to_target.to_bits())
+fn bits(outcome: &Outcome) -> (bool, u32, u32, [u32; 4]) {
+    let Outcome { reached, collisions, steps, path_length, distance_to_target, end } = outcome;
+    let floats = [*path_length, *distance_to_target, end[0], end[1]];
+    (*reached, *collisions, *steps, floats.map(f32::to_bits))
 }
 
 /// Drives a fleet at every width, and each drive alone. Returns the steps of one of them.

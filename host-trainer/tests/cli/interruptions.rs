@@ -21,19 +21,39 @@ const RUN: &[&str] = &[
     "--set=training.ga.mutation={gaussian_sigma=0.2}",
 ];
 
+/// The same with an archive in the checkpoint, in a room whose goal nobody reaches in so few steps.
+const NOVEL_RUN: &[&str] = &[
+    "train",
+    "medium_maze",
+    "--preset=novelty",
+    "--seed=3",
+    "--population=60",
+    "--generations=60",
+    "--checkpoint-every=0",
+    "--set=episode.step_limit=60",
+];
+
 fn start(bench: &Bench, folder: &str) -> Child {
+    start_as(RUN, bench, folder)
+}
+
+fn start_as(run: &[&str], bench: &Bench, folder: &str) -> Child {
     // Killed before it could say what it is, a run has to be begun again.
     let mut command = if bench.path(folder).join("manifest.toml").exists() {
         bench.program(["train", "--checkpoint-every=0", "--resume", folder])
     } else {
-        bench.program(RUN.iter().chain(&["--out", folder]))
+        bench.program(run.iter().chain(&["--out", folder]))
     };
     command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
 fn uninterrupted(bench: &Bench) -> Duration {
+    uninterrupted_as(RUN, bench)
+}
+
+fn uninterrupted_as(run: &[&str], bench: &Bench) -> Duration {
     let begun = Instant::now();
-    bench.run(RUN.iter().chain(&["--out", "whole"])).ends_in(0);
+    bench.run(run.iter().chain(&["--out", "whole"])).ends_in(0);
     begun.elapsed()
 }
 
@@ -58,8 +78,17 @@ fn wait_for(bench: &Bench, file: &str, child: &mut Child) {
 
 #[test]
 fn a_run_killed_at_ten_random_moments_ends_as_if_nothing_had_happened() {
+    killed_at_ten_random_moments(RUN);
+}
+
+#[test]
+fn a_search_by_novelty_killed_at_ten_random_moments_ends_as_if_nothing_had_happened() {
+    killed_at_ten_random_moments(NOVEL_RUN);
+}
+
+fn killed_at_ten_random_moments(run: &[&str]) {
     let bench = Bench::new();
-    let whole = uninterrupted(&bench);
+    let whole = uninterrupted_as(run, &bench);
     let mut random = 0x5eed_u64;
     println!("seed of the moments {random:#x}, the whole run takes {whole:?}");
     let mut killed = 0;
@@ -68,7 +97,7 @@ fn a_run_killed_at_ten_random_moments_ends_as_if_nothing_had_happened() {
         random =
             random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let moment = whole.mul_f64(0.4 * (random >> 32) as f64 / f64::from(u32::MAX));
-        let mut child = start(&bench, "parts");
+        let mut child = start_as(run, &bench, "parts");
         sleep(moment);
         child.kill().unwrap();
         let status = child.wait().unwrap();

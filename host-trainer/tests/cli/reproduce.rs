@@ -40,6 +40,79 @@ fn the_json_object_is_the_file_and_where_it_lies() {
 }
 
 #[test]
+fn a_maze_is_searched_by_novelty_by_distance_and_by_chance() {
+    let bench = Bench::new();
+    let line = "reproduce medium-maze --seeds 2 --generations 4 --population 40 --out r --json";
+    let done = bench.say(line).ends_in(0);
+    let mut printed: serde_json::Value = serde_json::from_str(&done.stdout).unwrap();
+    let object = printed.as_object_mut().unwrap();
+    assert_eq!(object.remove("folder").unwrap(), "r");
+    assert!(object.remove("report").unwrap().as_str().unwrap().ends_with("report.html"));
+    let files = bench.results("r");
+    assert_eq!(
+        printed,
+        serde_json::from_slice::<serde_json::Value>(&files["results.json"]).unwrap()
+    );
+    let course = &printed["courses"][0];
+    assert_eq!(course["course"], "medium-maze");
+    assert_eq!(course["published"][0]["mean"], 18274.0);
+    let methods: Vec<_> = course["rows"].as_array().unwrap().iter().map(|r| &r["method"]).collect();
+    assert_eq!(methods, ["novelty", "distance", "chance"]);
+    for row in course["rows"].as_array().unwrap() {
+        assert_eq!((&row["budget"], &row["solved"]["of"]), (&160.into(), &2.into()));
+    }
+    let csv = String::from_utf8(files["results.csv"].clone()).unwrap();
+    assert_eq!(csv.lines().count(), 1 + 2 * 3 * 2, "{csv}");
+    for name in
+        ["report.html", "plots/medium-maze-novelty.svg", "plots/medium-maze-clean-chance.svg"]
+    {
+        assert!(files.contains_key(name), "{name}");
+    }
+    assert_eq!(unfinished(&files), [""; 0]);
+}
+
+#[test]
+fn a_maze_gone_on_with_has_the_bytes_of_one_done_at_once_on_any_number_of_threads() {
+    let bench = Bench::new();
+    let line = "reproduce switchback-maze --generations 3 --population 20 --methods novelty";
+    bench.say(&format!("{line} --seeds 3 --threads 5 --out whole")).ends_in(0);
+    bench.say(&format!("{line} --seeds 1 --threads 1 --out parts")).ends_in(0);
+    let more = bench.say("reproduce --resume parts --seeds 3 --threads 2").ends_in(0);
+    assert!(more.stderr.contains("6 trials (2 done)"), "{}", more.stderr);
+    assert!(bench.results("whole") == bench.results("parts"));
+    let fewer = bench.say("reproduce --resume parts --seeds 2").ends_in(2);
+    assert!(fewer.stderr.contains("has 3 seeds; expected as many or more"), "{}", fewer.stderr);
+}
+
+#[test]
+fn a_run_in_a_maze_is_the_run_that_train_does_with_the_same_seed() {
+    let bench = Bench::new();
+    let line = "reproduce medium-maze --methods novelty --seed 7 --seeds 1 --generations 20 --json";
+    let mazes: serde_json::Value =
+        serde_json::from_str(&bench.say(line).ends_in(0).stdout).unwrap();
+    let same = "train medium_maze --preset novelty --seed 7 --generations 20 --out t --json";
+    let run: serde_json::Value = serde_json::from_str(&bench.say(same).ends_in(0).stdout).unwrap();
+    let found = &mazes["courses"][0]["rows"][0]["runs"][0];
+    assert_eq!(found["solved"], true);
+    let generations = run["generations"].as_u64().unwrap();
+    assert_eq!(found["evaluations"].as_u64().unwrap(), 250 * generations);
+}
+
+#[test]
+fn options_of_scenes_and_of_mazes_are_told_apart_by_name() {
+    let bench = Bench::new();
+    for (line, parts) in [
+        ("reproduce medium-maze --pairs 5", ["--pairs: found", "expected none"]),
+        ("reproduce medium-maze --methods elman", ["`elman`", "novelty, distance, chance"]),
+        ("reproduce open --methods distance", ["`distance`", "expected some of: paper"]),
+    ] {
+        let done = bench.say(line).ends_in(2);
+        assert!(parts.iter().all(|part| done.stderr.contains(part)), "{line}: {}", done.stderr);
+        assert!(!bench.path("runs").exists(), "{line}");
+    }
+}
+
+#[test]
 fn equal_reproductions_have_equal_bytes_on_any_number_of_threads() {
     let bench = Bench::new();
     for threads in ["1", "2", "5"] {

@@ -88,6 +88,33 @@ fn a_run_that_changes_on_its_way_is_not_resumed_to_another_number_of_generations
 }
 
 #[test]
+fn a_search_by_novelty_that_is_resumed_ends_as_the_run_that_was_never_interrupted() {
+    let bench = Bench::new();
+    let options = |folder: &str, generations: &str| {
+        format!(
+            "train medium_maze --preset novelty --set episode.on_collision=stop --population 20 \
+             --out {folder} --generations {generations}"
+        )
+    };
+    bench.say(&options("whole", "7")).ends_in(0);
+    bench.say(&options("parts", "3")).ends_in(0);
+    bench.say("train --resume parts --generations 7 --threads 1").ends_in(0);
+    assert!(bench.results("whole") == bench.results("parts"));
+}
+
+#[test]
+fn a_run_until_the_goal_is_reached_ends_with_that_and_stays_so() {
+    let bench = Bench::new();
+    let line = "train medium_maze --preset novelty --generations 300 --out a --json";
+    let done: serde_json::Value = serde_json::from_str(&bench.say(line).ends_in(0).stdout).unwrap();
+    assert_eq!(done["training"]["reached"], 1);
+    assert!(done["generations"].as_u64().unwrap() < 300, "{done}");
+    let before = bench.all_files("a");
+    bench.say("train --resume a").ends_in(0);
+    assert!(before == bench.all_files("a"));
+}
+
+#[test]
 fn a_finished_run_that_is_resumed_stays_as_it_is() {
     let bench = Bench::new();
     bench.train("open", "a", &[]).ends_in(0);

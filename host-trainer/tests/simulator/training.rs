@@ -70,6 +70,20 @@ const CHANGING: &str = "
     fan_in = true
 ";
 
+/// A search by novelty, which keeps an archive.
+const NOVEL: &str = "
+    [world]
+    boxes = [[4, 4, 6, 6]]
+    [episode]
+    step_limit = 120
+    [training]
+    population = 40
+    until_reached = true
+    [training.novelty]
+    neighbours = 5
+    archive_growth = 4
+";
+
 fn bytes(training: &Training<'_>) -> Vec<u8> {
     postcard::to_allocvec(&training.snapshot()).unwrap()
 }
@@ -87,7 +101,7 @@ fn trained(problem: &Problem, threads: usize, generations: u32) -> Vec<u8> {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
-    for settings in [EXACT, NOISY, CHANGING] {
+    for settings in [EXACT, NOISY, CHANGING, NOVEL] {
         let problem = Problem::new(from_toml(settings)).unwrap();
         let alone = trained(&problem, 1, 3);
         for threads in [2, 7] {
@@ -98,7 +112,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
 
 #[test]
 fn a_run_goes_on_from_its_snapshot_as_if_nothing_had_happened() {
-    for (settings, before) in [(EXACT, 2), (NOISY, 2), (CHANGING, 9)] {
+    for (settings, before) in [(EXACT, 2), (NOISY, 2), (CHANGING, 9), (NOVEL, 4)] {
         let problem = Problem::new(from_toml(settings)).unwrap();
         let mut first = Training::new(&problem, RunSeed(5)).unwrap();
         for _ in 0..before {
@@ -113,6 +127,107 @@ fn a_run_goes_on_from_its_snapshot_as_if_nothing_had_happened() {
         }
         assert!(bytes(&resumed) == trained(&problem, 1, before + 2), "{settings}");
     }
+}
+
+#[test]
+fn a_checkpoint_of_a_search_by_novelty_holds_its_archive() {
+    let problem = Problem::new(from_toml(NOVEL)).unwrap();
+    let mut training = Training::new(&problem, RunSeed(5)).unwrap();
+    for generation in 1..=3 {
+        training.step().unwrap();
+        // Five pairs, so points of ten coordinates.
+        let archive = training.archive().unwrap();
+        assert_eq!(archive.len(), 4 * generation);
+        assert!(archive.points().all(|point| point.len() == 10));
+    }
+    let saved: Snapshot = postcard::from_bytes(&bytes(&training)).unwrap();
+    let mut resumed = Training::new(&problem, RunSeed(5)).unwrap();
+    resumed.restore(saved).unwrap();
+    assert_eq!(resumed.archive(), training.archive());
+}
+
+#[test]
+fn where_drives_end_is_where_the_same_drives_alone_end() {
+    let problem = Problem::new(from_toml(NOVEL)).unwrap();
+    let mut training = Training::new(&problem, RunSeed(5)).unwrap();
+    training.step().unwrap();
+    let best = training.best().unwrap();
+    let pairs = training.pairs_of(best).unwrap();
+    let mut brain = problem.brain(&best.genome).unwrap();
+    let drives = problem.drive_all(&mut *brain, &pairs, |pair| training_drive(RunSeed(5), 0, pair));
+    let alone: Vec<f32> = drives.iter().flat_map(|drive| drive.end).collect();
+    assert!(training.ends().points().any(|point| point == alone), "{alone:?}");
+}
+
+/// A room with a wall between start and goal that ends short of the far side.
+const SMALL_MAZE: &str = "
+    [world]
+    max_m = [6, 5]
+    walls = [{ points = [[0, 2.5], [4.2, 2.5]] }]
+    [episode]
+    step_limit = 200
+    [fitness]
+    length = 0
+    [pairs]
+    list = [{ start = [1, 1, 0], goal = [1, 4] }]
+    [training]
+    population = 60
+    until_reached = true
+    [training.novelty]
+    neighbours = 10
+    archive_growth = 3
+    [training.ga]
+    crossover_share = 0
+    mutation_share = 0.98
+    ranking_share = 0.02
+    random_share = 0
+    selection = { truncation_share = 0.2 }
+    mutation = { every_gene_sigma = 0.1 }
+    initial = { gaussian_sigma = 1 }
+    fan_in = true
+";
+
+#[test]
+fn a_small_maze_is_solved_by_a_search_that_ignores_its_goal() {
+    let problem = Problem::new(from_toml(SMALL_MAZE)).unwrap();
+    for seed in 1..=5 {
+        let mut training = Training::new(&problem, RunSeed(seed)).unwrap();
+        while !training.is_solved() && training.generation() < 60 {
+            training.step().unwrap();
+        }
+        assert!(training.is_solved() && training.is_over(), "seed {seed}");
+        let best = training.best().unwrap();
+        assert_eq!(best.generation + 1, training.generation(), "seed {seed}: who reached it");
+        let mut brain = problem.brain(&best.genome).unwrap();
+        let pairs = training.pairs_of(best).unwrap();
+        let place = |pair| training_drive(RunSeed(seed), best.generation, pair);
+        assert!(problem.drive_all(&mut *brain, &pairs, place)[0].reached, "seed {seed}");
+    }
+}
+
+/// The goal pulls nobody: with all costs equal, the same genomes are bred.
+#[test]
+fn a_search_by_novelty_does_not_look_at_the_cost() {
+    let bred = |distance: &str| {
+        let costs = format!("[fitness]\ndistance = {distance}\ncollision = {distance}");
+        let problem = Problem::new(from_toml(&format!("{NOVEL}\n{costs}"))).unwrap();
+        let mut training = Training::new(&problem, RunSeed(5)).unwrap();
+        for _ in 0..4 {
+            training.step().unwrap();
+        }
+        training.ends().clone()
+    };
+    assert_eq!(bred("0"), bred("700"));
+}
+
+#[test]
+fn a_snapshot_by_cost_is_refused_by_a_search_for_novelty() {
+    let by_cost = NOVEL.split("[training.novelty]").next().unwrap();
+    let [novel, plain] = [NOVEL, by_cost].map(|text| Problem::new(from_toml(text)).unwrap());
+    let snapshot = Training::new(&plain, RunSeed(5)).unwrap().snapshot();
+    let mut training = Training::new(&novel, RunSeed(5)).unwrap();
+    assert!(training.restore(snapshot).is_err());
+    assert_eq!(training.archive().map(|archive| archive.len()), Some(0));
 }
 
 #[test]

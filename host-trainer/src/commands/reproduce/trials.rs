@@ -4,7 +4,8 @@ use super::finish;
 use crate::commands::advice::counted;
 use crate::failure::{Failure, FailureKind};
 use crate::output::{Output, TrialProgress};
-use crate::reproduce::workers::{self, Event, Job};
+use crate::reproduce::trial::Task;
+use crate::reproduce::workers::{self, Event};
 use crate::reproduce::{Plan, Setup, Trial};
 use crate::run_folder::RunFolder;
 use crate::seed::RunSeed;
@@ -34,9 +35,9 @@ pub(super) fn all(
         (0..setups.len()).flat_map(|setup| (0..seeds.len()).map(move |seed| (setup, seed)));
     let missing: Vec<(usize, usize)> =
         places.filter(|(setup, seed)| all[*setup][*seed].is_none()).collect();
-    let jobs: Vec<Job<'_>> = missing
+    let jobs: Vec<Task<'_>> = missing
         .iter()
-        .map(|(setup, seed)| Job { setup: &setups[*setup], seed: seeds[*seed] })
+        .map(|(setup, seed)| Task { setup: &setups[*setup], seed: seeds[*seed] })
         .collect();
     let total = setups.len() * seeds.len();
     let mut done = total - jobs.len();
@@ -56,7 +57,7 @@ pub(super) fn all(
         match event {
             Event::Generation { job } => progress.advance(jobs[job].setup.work_of_a_generation()),
             Event::Done { job, trial } => {
-                let Job { setup, seed } = jobs[job];
+                let Task { setup, seed } = jobs[job];
                 trial.write(setup, folder)?;
                 done += 1;
                 progress.trial(output, finish::brief(setup, seed, &trial));

@@ -57,6 +57,12 @@ fn picture(
     frame.svg(&heading, &heading, &out)
 }
 
+/// A drive's path with its start and goal, for a picture that shows something else as well.
+pub(super) fn way(frame: &Frame, drive: &Drive) -> String {
+    let start = frame.place([drive.start[0], drive.start[1]]);
+    path(frame, &drive.moments, PATH, 2.0) + &square(frame.place(drive.goal)) + &diamond(start)
+}
+
 fn path(frame: &Frame, moments: &[Moment], colour: &str, width: f64) -> String {
     let mut points = String::new();
     for moment in moments {

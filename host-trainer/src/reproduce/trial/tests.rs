@@ -1,4 +1,5 @@
 use super::*;
+use crate::failure::FailureKind;
 use crate::reproduce::method::PAPER;
 use crate::reproduce::sample;
 use crate::reproduce::{Method, PaperScene, Plan};
