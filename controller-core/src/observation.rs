@@ -1,8 +1,9 @@
 //! What the beams report, and how five reports become the network's seven inputs.
 //!
 //! Inputs 0 to 4 are the beams' distances, rightmost first, each in `0.0..=1.0`; inputs 5 and
-//! 6 say whether a wall and whether the target is seen. How exactly is an [`Encoding`]: it is
-//! recorded in the weight blob and implemented here only.
+//! 6 say whether a wall and whether the target is seen, or on which side the target is and whether
+//! it is seen. How exactly is an [`Encoding`]: it is recorded in the weight blob and implemented
+//! here only.
 
 use crate::lane::Lane;
 use serde::{Deserialize, Serialize};
@@ -172,7 +173,7 @@ pub enum DistanceLaw {
     },
 }
 
-/// How five hit types become the inputs "wall" and "target".
+/// How five hit types become two inputs: "wall" and "target" but for [`Self::Bearing`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[serde(rename_all = "kebab-case")]
@@ -186,6 +187,10 @@ pub enum TypeCode {
     Share,
     /// "Wall" as in [`Self::Nearest`], "target" as in [`Self::Any`].
     NearestWallAnyTarget,
+    /// On which side the target is, from -1 (right) to 1 (left), and 1 if any beam ends on it. A
+    /// beam that ends on the target counts with its range: the way there is free. Ours; that
+    /// something which is not the target is a wall, the distances say already.
+    Bearing,
 }
 
 /// How readings become network inputs; recorded in the weight blob.
@@ -199,12 +204,18 @@ pub struct Encoding {
 }
 
 impl Encoding {
-    /// The network's seven inputs, each in `0.0..=1.0`, for beams of this range in metres.
+    /// The network's seven inputs for beams of this range in metres, each in `0.0..=1.0` but for
+    /// the side of [`TypeCode::Bearing`], which is in `-1.0..=1.0`.
     #[inline(always)]
     pub fn inputs<L: Lane>(self, sight: &Sight<L>, range: f32) -> [L; INPUTS] {
         let one = L::from(1.0);
         // Loops, not closures: see `activation::Rational::polynomial`.
         let mut scaled = sight.distance;
+        if matches!(self.types, TypeCode::Bearing) {
+            for (distance, target) in scaled.iter_mut().zip(&sight.target) {
+                *distance = L::select(target.lt(one), *distance, L::from(range));
+            }
+        }
         match self.distance {
             DistanceLaw::Linear => {
                 let scale = L::from(1.0 / range);
@@ -225,6 +236,7 @@ impl Encoding {
             TypeCode::Nearest => nearest(sight),
             TypeCode::Share => (share(&sight.wall), share(&sight.target)),
             TypeCode::NearestWallAnyTarget => (nearest(sight).0, any(&sight.target)),
+            TypeCode::Bearing => (side(&sight.target), any(&sight.target)),
         };
         [a, b, c, d, e, wall, target]
     }
@@ -246,6 +258,13 @@ fn share<L: Lane>(seen: &[L; BEAMS]) -> L {
         count = count + *beam;
     }
     count * L::from(1.0 / BEAMS as f32)
+}
+
+/// The outer beams count twice, so that every beam on one side together makes 1.
+#[inline(always)]
+fn side<L: Lane>(seen: &[L; BEAMS]) -> L {
+    let [outer_right, right, _, left, outer_left] = *seen;
+    (outer_left - outer_right) * L::from(2.0 / 3.0) + (left - right) * L::from(1.0 / 3.0)
 }
 
 #[inline(always)]

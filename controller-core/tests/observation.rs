@@ -25,6 +25,14 @@ fn inputs(distance: DistanceLaw, types: TypeCode, echoes: [Echo; 5]) -> [f32; 7]
     Encoding { distance, types }.inputs(&reading(echoes).sight(), 8.0)
 }
 
+const CODES: [TypeCode; 5] = [
+    TypeCode::Any,
+    TypeCode::Nearest,
+    TypeCode::Share,
+    TypeCode::NearestWallAnyTarget,
+    TypeCode::Bearing,
+];
+
 #[test]
 fn linear_distances_are_shares_of_the_range_and_clear_beams_read_one() {
     let seen = [wall(0.0), wall(2.0), CLEAR, target(4.0), wall(8.0)];
@@ -43,37 +51,55 @@ fn saturating_distances_are_one_half_at_the_half_distance() {
 #[test]
 fn hit_types_become_two_inputs_as_the_table_says() {
     // Five beams, rightmost first; then (wall, target) for any, nearest, share, and nearest
-    // wall with any target.
+    // wall with any target, and (side, target) for bearing.
+    let third = 1.0 / 3.0;
     let table = [
-        ([CLEAR; 5], [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]]),
-        ([wall(1.0); 5], [[1.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 0.0]]),
+        ([CLEAR; 5], [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]]),
+        ([wall(1.0); 5], [[1.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 0.0]]),
         (
             [wall(3.0), CLEAR, target(2.0), CLEAR, wall(4.0)],
-            [[1.0, 1.0], [0.0, 1.0], [0.4, 0.2], [0.0, 1.0]],
+            [[1.0, 1.0], [0.0, 1.0], [0.4, 0.2], [0.0, 1.0], [0.0, 1.0]],
         ),
         (
             [wall(1.0), CLEAR, target(2.0), target(2.5), wall(4.0)],
-            [[1.0, 1.0], [1.0, 0.0], [0.4, 0.4], [1.0, 1.0]],
+            [[1.0, 1.0], [1.0, 0.0], [0.4, 0.4], [1.0, 1.0], [third, 1.0]],
         ),
         // Equal distances: the rightmost decides.
         (
             [CLEAR, target(2.0), wall(2.0), CLEAR, CLEAR],
-            [[1.0, 1.0], [0.0, 1.0], [0.2, 0.2], [0.0, 1.0]],
+            [[1.0, 1.0], [0.0, 1.0], [0.2, 0.2], [0.0, 1.0], [-third, 1.0]],
         ),
         (
             [CLEAR, wall(2.0), target(2.0), CLEAR, CLEAR],
-            [[1.0, 1.0], [1.0, 0.0], [0.2, 0.2], [1.0, 1.0]],
+            [[1.0, 1.0], [1.0, 0.0], [0.2, 0.2], [1.0, 1.0], [0.0, 1.0]],
         ),
         // A hit at the very end of the range, behind a clear beam to its right, loses the tie.
-        ([CLEAR, CLEAR, CLEAR, CLEAR, wall(8.0)], [[1.0, 0.0], [0.0, 0.0], [0.2, 0.0], [0.0, 0.0]]),
+        (
+            [CLEAR, CLEAR, CLEAR, CLEAR, wall(8.0)],
+            [[1.0, 0.0], [0.0, 0.0], [0.2, 0.0], [0.0, 0.0], [0.0, 0.0]],
+        ),
+        // Every beam of one side.
+        (
+            [target(3.0), target(2.0), wall(1.0), CLEAR, CLEAR],
+            [[1.0, 1.0], [1.0, 0.0], [0.2, 0.4], [1.0, 1.0], [-1.0, 1.0]],
+        ),
     ];
-    let codes = [TypeCode::Any, TypeCode::Nearest, TypeCode::Share, TypeCode::NearestWallAnyTarget];
     for (echoes, expected) in table {
-        for (code, expected) in codes.into_iter().zip(expected) {
+        for (code, expected) in CODES.into_iter().zip(expected) {
             let [.., wall, target] = inputs(DistanceLaw::Linear, code, echoes);
             assert_eq!([wall, target], expected, "{code:?} of {echoes:?}");
         }
     }
+}
+
+#[test]
+fn a_beam_on_the_target_counts_as_free_where_its_bearing_is_an_input() {
+    let seen = [wall(2.0), target(2.0), CLEAR, target(8.0), target(0.0)];
+    let [distances @ .., _, _] = inputs(DistanceLaw::Linear, TypeCode::Bearing, seen);
+    assert_eq!(distances, [0.25, 1.0, 1.0, 1.0, 1.0]);
+    let law = DistanceLaw::Saturating { half: 2.0 };
+    let [distances @ .., _, _] = inputs(law, TypeCode::Bearing, seen);
+    assert_eq!(distances, [0.5, 0.8, 0.8, 0.8, 0.8]);
 }
 
 #[test]
@@ -150,8 +176,7 @@ fn encodings() -> impl Strategy<Value = Encoding> {
         Just(DistanceLaw::Linear),
         (0.01f32..20.0).prop_map(|half| DistanceLaw::Saturating { half })
     ];
-    let codes = [TypeCode::Any, TypeCode::Nearest, TypeCode::Share, TypeCode::NearestWallAnyTarget];
-    (laws, select(codes.to_vec())).prop_map(|(distance, types)| Encoding { distance, types })
+    (laws, select(CODES.to_vec())).prop_map(|(distance, types)| Encoding { distance, types })
 }
 
 proptest! {

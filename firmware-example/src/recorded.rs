@@ -45,4 +45,5 @@ pub static ALL: &[Drive] = &[
     #[cfg(not(feature = "little-flash"))]
     drive!("elman-rational"),
     drive!("elman-micromath"),
+    drive!("self-rational"),
 ];

@@ -25,9 +25,9 @@ pub struct Problem {
     /// What it was built from.
     pub scenario: Scenario,
     /// Its obstacles.
-    pub world: World,
+    pub world: Arc<World>,
     model: CarModel,
-    lookout: Lookout,
+    lookout: Arc<Lookout>,
     space: OnceLock<Arc<FreeSpace>>,
     scaling: Scaling,
     topology: Topology,
@@ -44,9 +44,9 @@ impl Problem {
         let world = World::new(&scenario)?;
         let model = CarModel::new(&scenario);
         Ok(Self {
-            lookout: model.lookout(&world),
+            lookout: Arc::new(model.lookout(&world)),
             space: OnceLock::new(),
-            world,
+            world: Arc::new(world),
             model,
             scaling: scaling_of(&scenario),
             topology: topology_of(&scenario),
@@ -60,6 +60,22 @@ impl Problem {
     pub fn disturb(&mut self, disturbances: Disturbances) {
         disturbances.put_into(&mut self.scenario);
         self.model = CarModel::new(&self.scenario);
+    }
+
+    /// The same problem for a car that is imperfect in this way. It shares the world.
+    #[must_use]
+    pub fn disturbed(&self, disturbances: Disturbances) -> Self {
+        let Self { world, lookout, space, .. } = self;
+        let mut scenario = self.scenario.clone();
+        disturbances.put_into(&mut scenario);
+        Self {
+            world: Arc::clone(world),
+            lookout: Arc::clone(lookout),
+            space: space.clone(),
+            model: CarModel::new(&scenario),
+            scenario,
+            ..*self
+        }
     }
 
     /// The network that is searched for.
@@ -134,12 +150,12 @@ impl Problem {
     /// generation drives the same pairs.
     pub fn is_stationary(&self) -> bool {
         use crate::scenario::{PairSource, RandomiseSpec};
-        let Scenario { sensors, episode, pairs, .. } = &self.scenario;
+        let Scenario { sensors, episode, pairs, training, .. } = &self.scenario;
         let same_pairs = !matches!(pairs.source, PairSource::Drawn { resample: true, .. });
         let fixed_start = episode.start_offset == 0.0 && episode.start_turn == 0.0;
         let fixed_car = episode.randomise == RandomiseSpec::default();
         let exact = sensors.noise == 0.0 && sensors.dropout == 0.0;
-        same_pairs && fixed_start && fixed_car && exact
+        same_pairs && fixed_start && fixed_car && exact && training.stressed_share == 0.0
     }
 }
 

@@ -362,6 +362,10 @@ impl TrainingSpec {
     pub const GENERATIONS: RangeInclusive<u32> = 1..=1_000_000;
 }
 
+fn is_zero(share: &f32) -> bool {
+    *share == 0.0
+}
+
 /// The search.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingSpec {
@@ -374,6 +378,10 @@ pub struct TrainingSpec {
     /// Pairs, drawn for this alone, on which the best of each generation compete to be the
     /// champion; 0 takes the best of the last generation. No matter for listed pairs.
     pub validation_pairs: u32,
+    /// Share of the drives, of training and of choosing the champion, that are made with a car
+    /// as imperfect as [stress](crate::stress::in_full) makes it.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub stressed_share: f32,
     /// Whether the run ends with the first generation in which somebody reaches the targets of
     /// all pairs.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]

@@ -25,6 +25,14 @@ pub const SCALES: [f32; 3] = [0.5, 1.0, 2.0];
 /// The scale by which factors are compared.
 const FULL: f32 = 1.0;
 
+/// A car whose control periods last this long, seconds, with every factor at its full size.
+pub fn in_full(mut car: Disturbances, period: f32) -> Disturbances {
+    for factor in Factor::ALL {
+        factor.disturb(factor.full() * FULL, period, &mut car);
+    }
+    car
+}
+
 /// How a controller drives with and without disturbances.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Stress {

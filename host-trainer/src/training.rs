@@ -5,17 +5,18 @@
 //! | --- | --- |
 //! | `scales` | how large each weight of a network is, typically |
 //! | `hard` | which pairs the next generation keeps |
+//! | `test_drives` | whole generations of drives, some of them with a worse car |
 //! | `row` | what the metrics say of a generation |
 
 mod hard;
 mod row;
 mod scales;
+mod test_drives;
 
 use crate::episode::Outcome;
-use crate::evaluation;
 use crate::evolve::ga::{Ga, Outlook};
 use crate::evolve::novelty::Behaviours;
-use crate::evolve::{Cost, Novelty, Optimizer, Population, RestoreError, SearchSpace, State};
+use crate::evolve::{Cost, Novelty, Optimizer, RestoreError, SearchSpace, State};
 use crate::failure::Failure;
 use crate::fingerprint;
 use crate::fitness;
@@ -25,11 +26,10 @@ use crate::run_folder::MetricsRow;
 use crate::scenario::{Complaint, Pair, PairSource, Scenario, TrainingSpec};
 use crate::seed::RunSeed;
 use crate::signals::StopFlag;
-use crate::vector::Instructions;
-use crate::wide::Fleet;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fmt;
+use test_drives::TestDrives;
 
 /// The best individual so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -91,6 +91,7 @@ impl std::error::Error for ResumeError {}
 /// A training run in memory; files are the caller's business.
 pub struct Training<'a> {
     problem: &'a Problem,
+    test_drives: TestDrives<'a>,
     run: RunId,
     seed: RunSeed,
     sampler: PairSampler<'a>,
@@ -137,6 +138,7 @@ impl<'a> Training<'a> {
         let novelty = spec.novelty.map(|novelty| Novelty::new(novelty, coordinates, seed));
         Ok(Self {
             problem,
+            test_drives: TestDrives::new(problem),
             run,
             seed,
             sampler,
@@ -266,9 +268,9 @@ impl<'a> Training<'a> {
     pub fn step_unless(&mut self, stop: &StopFlag) -> Result<Option<&MetricsRow>, Failure> {
         let generation = self.generation();
         let pairs = self.pairs(generation, &self.kept)?;
-        let population = self.search.ask();
-        let Some(drives) = judge(self.problem, self.seed, population, &pairs, generation, stop)
-        else {
+        let genomes = self.search.ask().genes();
+        let random = |pair| training_drive(self.seed, generation, pair);
+        let Some(drives) = self.test_drives.of(genomes, &pairs, &random, stop) else {
             return Ok(None);
         };
         let scenario = &self.problem.scenario;
@@ -310,7 +312,7 @@ impl<'a> Training<'a> {
         let genome = self.search.ask().genome(index);
         let seed = self.seed;
         let random = |pair| validation_drive(seed, pair);
-        let drives = evaluation::outcomes(self.problem, genome, &self.validation, random, stop)?;
+        let drives = self.test_drives.of(genome, &self.validation, &random, stop)?;
         Some(fitness::total(&self.problem.scenario, &self.validation, &drives))
     }
 
@@ -391,20 +393,4 @@ fn ends(drives: &[Outcome], pairs: usize) -> Behaviours {
         ends.extend(&drive.end);
     }
     ends
-}
-
-/// Every individual's drives, all of the first individual, then of the second; none once `stop`
-/// is raised.
-fn judge(
-    problem: &Problem,
-    seed: RunSeed,
-    population: &Population,
-    pairs: &[Pair],
-    generation: u32,
-    stop: &StopFlag,
-) -> Option<Vec<Outcome>> {
-    let random = |pair| training_drive(seed, generation, pair);
-    let fleet =
-        Fleet { problem, genomes: population.genes(), pairs, random: &random, again: false };
-    fleet.drive(Instructions::in_use(), stop).map(|drives| drives.outcomes)
 }

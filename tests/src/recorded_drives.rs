@@ -10,7 +10,7 @@ use crate::random::Random;
 use crate::weight_sets;
 
 /// Every recorded drive under the name of its files.
-pub fn all() -> [(&'static str, Recorded); 4] {
+pub fn all() -> [(&'static str, Recorded); 5] {
     let linear = DistanceLaw::Linear;
     let saturating = DistanceLaw::Saturating { half: 1.0 };
     [
@@ -21,6 +21,7 @@ pub fn all() -> [(&'static str, Recorded); 4] {
             "elman-micromath",
             case::<Elman>(4, Micromath, linear, TypeCode::NearestWallAnyTarget, false),
         ),
+        ("self-rational", case::<SelfLoop>(5, Rational, saturating, TypeCode::Bearing, true)),
     ]
 }
 

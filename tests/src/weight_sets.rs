@@ -136,6 +136,7 @@ pub fn generated() -> Vec<WeightSet> {
         (DistanceLaw::Saturating { half: 0.5 }, TypeCode::Share),
         (DistanceLaw::Linear, TypeCode::NearestWallAnyTarget),
         (DistanceLaw::Saturating { half: 1.0 }, TypeCode::Nearest),
+        (DistanceLaw::Saturating { half: 0.7 }, TypeCode::Bearing),
     ];
     kinds
         .zip(encodings.into_iter().cycle())

@@ -113,8 +113,13 @@ const RECURRENCES: [RecurrenceKind; 3] =
     [RecurrenceKind::Feedforward, RecurrenceKind::SelfLoop, RecurrenceKind::Elman];
 const ACTIVATIONS: [ActivationKind; 3] =
     [ActivationKind::Rational, ActivationKind::Libm, ActivationKind::Micromath];
-const TYPE_CODES: [TypeCode; 4] =
-    [TypeCode::Any, TypeCode::Nearest, TypeCode::Share, TypeCode::NearestWallAnyTarget];
+const TYPE_CODES: [TypeCode; 5] = [
+    TypeCode::Any,
+    TypeCode::Nearest,
+    TypeCode::Share,
+    TypeCode::NearestWallAnyTarget,
+    TypeCode::Bearing,
+];
 
 fn code_of<T: PartialEq>(table: &[T], value: &T) -> u8 {
     table.iter().position(|entry| entry == value).map_or(u8::MAX, |code| code as u8)

@@ -41,6 +41,7 @@ fn scalings() -> impl Strategy<Value = Scaling> {
         TypeCode::Nearest,
         TypeCode::Share,
         TypeCode::NearestWallAnyTarget,
+        TypeCode::Bearing,
     ]);
     (law, types, positive(), 0.001f32..=std::f32::consts::FRAC_PI_2, positive(), 0.0f32..=1.0)
         .prop_map(|(distance, types, range, steer_limit, step_upper, share)| Scaling {
@@ -226,7 +227,10 @@ fn drives_safely<R: Recurrence, const H: usize, const O: usize>(
         });
         let reading = Reading::new(echoes, mixed % 4, range).unwrap();
         let inputs = header.scaling.encoding.inputs(&reading.sight(), range);
-        prop_assert!(inputs.iter().all(|input| (0.0..=1.0).contains(input)), "{inputs:?}");
+        let [distances_and_side @ .., target] = inputs;
+        let [distances @ .., side] = distances_and_side;
+        prop_assert!(distances.iter().all(|input| (0.0..=1.0).contains(input)), "{inputs:?}");
+        prop_assert!((-1.0..=1.0).contains(&side) && (0.0..=1.0).contains(&target), "{inputs:?}");
         let Command { steer, step } = controller.decide(Ok(&reading));
         let scaling = header.scaling;
         prop_assert!(steer.radians().abs() <= scaling.steer_limit);

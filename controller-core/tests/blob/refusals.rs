@@ -101,7 +101,7 @@ fn every_header_field_is_refused_by_name() {
     assert_eq!(code(22, 0), "unknown summation order 0 in the header");
     assert_eq!(code(23, 6), "unknown number of beams 6 in the header");
     assert_eq!(code(24, 2), "unknown distance law 2 in the header");
-    assert_eq!(code(25, 4), "unknown type code 4 in the header");
+    assert_eq!(code(25, 5), "unknown type code 5 in the header");
     for padding in [27, 142, 143] {
         assert_eq!(code(padding, 1), "padding in the header is not zero");
     }

@@ -123,6 +123,7 @@ pub(super) fn paper() -> Scenario {
             generations: 60,
             weight_bound: 1.0,
             validation_pairs: 0,
+            stressed_share: 0.0,
             until_reached: false,
             ga: GaSpec::PAPER,
             novelty: None,

@@ -85,6 +85,7 @@ fn any_sensors() -> impl Strategy<Value = SensorSpec> {
         TypeCode::Nearest,
         TypeCode::Share,
         TypeCode::NearestWallAnyTarget,
+        TypeCode::Bearing,
     ]);
     let beams = [mount(-1.0), mount(-0.6), mount(-0.1), mount(0.3), mount(0.8)];
     (beams, 1_f32..30.0, law, codes, 0_f32..1.0, 0_f32..=1.0).prop_map(
@@ -150,14 +151,15 @@ fn any_training() -> impl Strategy<Value = TrainingSpec> {
     let novelty = (1_u32..1000, 0_u32..=2)
         .prop_map(|(neighbours, archive_growth)| NoveltySpec { neighbours, archive_growth });
     let novelty = proptest::option::of(novelty);
-    let sizes = (2_u32..1000, 1_u32..1000, 0.1_f32..10.0, 0_u32..1000);
+    let sizes = (2_u32..1000, 1_u32..1000, 0.1_f32..10.0, 0_u32..1000, 0.0_f32..1.0);
     (sizes, ga, any::<bool>(), novelty).prop_map(|(sizes, ga, until_reached, novelty)| {
-        let (population, generations, weight_bound, validation_pairs) = sizes;
+        let (population, generations, weight_bound, validation_pairs, stressed_share) = sizes;
         TrainingSpec {
             population,
             generations,
             weight_bound,
             validation_pairs,
+            stressed_share,
             until_reached,
             ga,
             novelty,

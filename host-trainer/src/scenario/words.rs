@@ -26,6 +26,7 @@ pub(super) const TYPE_CODES: &[(&str, TypeCode)] = &[
     ("nearest", TypeCode::Nearest),
     ("share", TypeCode::Share),
     ("nearest-wall-any-target", TypeCode::NearestWallAnyTarget),
+    ("bearing", TypeCode::Bearing),
 ];
 
 pub(super) const RECURRENCES: &[(&str, RecurrenceKind)] = &[

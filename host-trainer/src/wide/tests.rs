@@ -47,6 +47,7 @@ fn scenarios() -> impl Strategy<Value = Scenario> {
             TypeCode::Nearest,
             TypeCode::Share,
             TypeCode::NearestWallAnyTarget,
+            TypeCode::Bearing,
         ]),
         select(vec![0.0_f32, 0.05]),
         select(vec![0.0_f32, 0.1]),
