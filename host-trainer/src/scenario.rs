@@ -378,8 +378,9 @@ pub struct TrainingSpec {
     /// Pairs, drawn for this alone, on which the best of each generation compete to be the
     /// champion; 0 takes the best of the last generation. No matter for listed pairs.
     pub validation_pairs: u32,
-    /// Share of the drives, of training and of choosing the champion, that are made with a car
-    /// as imperfect as [stress](crate::stress::in_full) makes it.
+    /// Share of the last generation's drives, and of those that choose the champion, that are
+    /// made with a car as imperfect as [stress](crate::stress::in_full) makes it. It grows from
+    /// none in the first generation.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub stressed_share: f32,
     /// Whether the run ends with the first generation in which somebody reaches the targets of

@@ -14,7 +14,7 @@ mod scales;
 mod test_drives;
 
 use crate::episode::Outcome;
-use crate::evolve::ga::{Ga, Outlook};
+use crate::evolve::ga::{Ga, Outlook, progress};
 use crate::evolve::novelty::Behaviours;
 use crate::evolve::{Cost, Novelty, Optimizer, RestoreError, SearchSpace, State};
 use crate::failure::Failure;
@@ -270,7 +270,9 @@ impl<'a> Training<'a> {
         let pairs = self.pairs(generation, &self.kept)?;
         let genomes = self.search.ask().genes();
         let random = |pair| training_drive(self.seed, generation, pair);
-        let Some(drives) = self.test_drives.of(genomes, &pairs, &random, stop) else {
+        let spec = &self.problem.scenario.training;
+        let share = f64::from(spec.stressed_share) * progress(generation, spec.generations);
+        let Some(drives) = self.test_drives.of(genomes, share, &pairs, &random, stop) else {
             return Ok(None);
         };
         let scenario = &self.problem.scenario;
@@ -312,7 +314,8 @@ impl<'a> Training<'a> {
         let genome = self.search.ask().genome(index);
         let seed = self.seed;
         let random = |pair| validation_drive(seed, pair);
-        let drives = self.test_drives.of(genome, &self.validation, &random, stop)?;
+        let share = self.problem.scenario.training.stressed_share.into();
+        let drives = self.test_drives.of(genome, share, &self.validation, &random, stop)?;
         Some(fitness::total(&self.problem.scenario, &self.validation, &drives))
     }
 
@@ -338,7 +341,8 @@ fn run_id(scenario: &Scenario, seed: RunSeed) -> RunId {
 /// Whether another number of generations makes another run from its second generation on: some
 /// setting follows a plan from the first generation to the last.
 pub fn depends_on_generations(scenario: &Scenario) -> bool {
-    scenario.pairs.count_end.is_some() || scenario.training.ga.sigma_end.is_some()
+    let Scenario { pairs, training, .. } = scenario;
+    pairs.count_end.is_some() || training.ga.sigma_end.is_some() || training.stressed_share > 0.0
 }
 
 fn no_pair(problem: &Problem, none: NoPair) -> Failure {

@@ -292,7 +292,7 @@ impl Record for TrainingSpec {
         v.value("validation_pairs", validation, pairs, "choose the champion; 0: the last best");
         let mut stressed = (self.stressed_share != 0.0).then_some(self.stressed_share);
         let shares = shapes::Maybe(Number::plain(0.0, 1.0));
-        let about = "drives with a car as `evaluate --stress` has it; none if left out";
+        let about = "drives under stress in the last generation; none if left out";
         v.value("stressed_share", &mut stressed, shares, about);
         self.stressed_share = stressed.unwrap_or(0.0);
         let mut until_reached = self.until_reached.then_some(true);

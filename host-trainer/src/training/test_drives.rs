@@ -28,10 +28,12 @@ impl<'a> TestDrives<'a> {
     }
 
     /// Every individual's drives, all of the first individual, then of the second; none once
-    /// `stop` is raised. Drive `i` gets the random numbers of `random(i)`.
+    /// `stop` is raised. Drive `i` gets the random numbers of `random(i)`. This `share` of them is
+    /// under stress, if the scenario has such drives at all.
     pub(super) fn of(
         &self,
         genomes: &[f32],
+        share: f64,
         pairs: &[Pair],
         random: &(dyn Fn(u32) -> Stream + Sync),
         stop: &StopFlag,
@@ -39,7 +41,6 @@ impl<'a> TestDrives<'a> {
         let Some(stressed) = &self.stressed else {
             return drives(self.as_described, genomes, pairs, random, stop);
         };
-        let share = self.as_described.scenario.training.stressed_share;
         let individuals = genomes.len() / self.as_described.topology().weights();
         let mut all = vec![Outcome::default(); individuals * pairs.len()];
         for (problem, of_stressed) in [(self.as_described, false), (stressed, true)] {
@@ -71,8 +72,8 @@ fn drives(
 
 /// Whether the pair at this place is driven under stress: of the first `n` places
 /// `share * n` are, rounded down.
-fn is_stressed(place: usize, share: f32) -> bool {
-    let before = |places: usize| (places as f64 * f64::from(share)) as u64;
+fn is_stressed(place: usize, share: f64) -> bool {
+    let before = |places: usize| (places as f64 * share) as u64;
     before(place + 1) > before(place)
 }
 
@@ -111,7 +112,8 @@ mod tests {
         let random = |pair| training_drive(RunSeed(1), 4, pair);
         let stop = StopFlag::default();
         let of = |problem: &Problem| {
-            TestDrives::new(problem).of(&genomes, &pairs, &random, &stop).unwrap()
+            let share = problem.scenario.training.stressed_share.into();
+            TestDrives::new(problem).of(&genomes, share, &pairs, &random, &stop).unwrap()
         };
         let (half, always, calm, worse) = (of(&half), of(&always), of(&calm), of(&worse));
         assert_ne!(calm, worse);
