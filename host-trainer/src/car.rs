@@ -1,5 +1,6 @@
 //! The simulated car: beams in, motion out, through the same control loop as a real one.
 
+mod misreading;
 mod model;
 
 use crate::scenario::{Scenario, StepLength, VehicleSpec};
@@ -13,8 +14,10 @@ use controller_core::motion::Pose;
 use controller_core::observation::{BEAMS, Echo, Reading, ReadingError};
 use std::convert::Infallible;
 
+pub(crate) use misreading::Misreading;
 pub use model::CarModel;
 pub(crate) use model::Exemplar;
+use model::Hit;
 
 /// The car's body around its front axle.
 pub fn body_of(vehicle: &VehicleSpec) -> Body<f32> {
@@ -107,26 +110,35 @@ impl<'a> SimulatedCar<'a> {
 
     /// What the beams see from here, without noise.
     pub fn echoes(&self) -> [Echo; BEAMS] {
+        self.hits().map(echo)
+    }
+
+    fn hits(&self) -> [Hit<f32>; BEAMS] {
         let fan = self.model.fan();
         let rays = fan.rays(&self.pose);
         let [walls] = self.lookout.distances::<f32, 1, BEAMS>(fan, &[self.pose], &[rays], &[1]);
-        std::array::from_fn(|beam| {
-            let (wall, target) = (walls[beam], rays[beam].to_disc(&self.target));
-            let hit = self.model.hit(wall, target);
-            if hit.target {
-                Echo::Target(target)
-            } else if hit.wall {
-                Echo::Wall(wall)
-            } else {
-                Echo::Nothing
-            }
-        })
+        std::array::from_fn(|beam| self.model.hit(walls[beam], rays[beam].to_disc(&self.target)))
+    }
+}
+
+fn echo(hit: Hit<f32>) -> Echo {
+    match hit {
+        Hit { target: true, distance, .. } => Echo::Target(distance),
+        Hit { wall: true, distance, .. } => Echo::Wall(distance),
+        Hit { .. } => Echo::Nothing,
     }
 }
 
 impl Sense for SimulatedCar<'_> {
     fn sense(&mut self) -> Result<Reading, ReadingError> {
-        self.reported = self.echoes().map(|echo| self.model.disturbed(echo, &mut self.random));
+        let mut hits = self.hits();
+        if self.model.is_disturbed() {
+            let Misreading { error } = self.model.misreading(&mut self.random);
+            for (hit, error) in hits.iter_mut().zip(error) {
+                *hit = self.model.misread(*hit, error);
+            }
+        }
+        self.reported = hits.map(echo);
         Reading::new(self.reported.map(Some), 0, self.model.range())
     }
 }
@@ -155,5 +167,33 @@ impl Actuate for SimulatedCar<'_> {
         let ended = self.collided && self.model.stops_on_collision();
         self.reached = !ended && self.model.touches_target(&self.pose, &self.target);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::{find, load};
+    use crate::seed::{Purpose, RunSeed};
+
+    #[test]
+    fn what_is_drawn_does_not_depend_on_what_is_seen() {
+        let mut scenario = load(&find("open").unwrap(), None, &[]).unwrap();
+        (scenario.sensors.noise, scenario.sensors.dropout) = (0.02, 0.1);
+        scenario.sensors.range = 2.0;
+        let (world, model) = (World::new(&scenario).unwrap(), CarModel::new(&scenario));
+        let lookout = model.lookout(&world);
+        let next_word_from = |start: [f32; 2]| {
+            let pose = Pose::new(start[0], start[1], 0.0);
+            let random = RunSeed(1).stream(Purpose::Episode, 0, 0);
+            let mut car = SimulatedCar::new(&world, &lookout, &model, pose, [9.0, 9.0], random);
+            let seeing = car.echoes().iter().filter(|echo| **echo != Echo::Nothing).count();
+            car.sense().unwrap();
+            (seeing, car.random.word())
+        };
+        let (nothing, from_the_middle) = next_word_from([5.0, 5.0]);
+        let (something, from_the_wall) = next_word_from([9.0, 5.0]);
+        assert!(nothing == 0 && something > 0, "{nothing}, {something}");
+        assert_eq!(from_the_middle, from_the_wall);
     }
 }

@@ -8,19 +8,22 @@
 //!
 //! [`episode::drive`](crate::episode::drive) is the reference: every operation here is the same
 //! generic function over a wider lane, or the same function called for one car after the other
-//! (its noise, its start), so each outcome has the bits of that drive.
+//! (its start), or a number drawn for all who drive the pair (its noise), so each outcome has the
+//! bits of that drive.
 //!
 //! | look in | for |
 //! | --- | --- |
 //! | `queue` | who drives what next |
 //! | `block` | lanes and slots, and what happens when a drive ends |
 //! | `cars` | one car in each lane: what they see, how they move |
+//! | `tape` | noise and dropped beams, drawn once for all who drive a pair |
 //! | `forward` | the networks of all cars, sizes known at run time |
 
 mod block;
 mod cars;
 mod forward;
 mod queue;
+mod tape;
 
 use crate::episode::Outcome;
 use crate::problem::Problem;
@@ -30,6 +33,7 @@ use crate::signals::StopFlag;
 use crate::vector::{Instructions, Kernel, Vector};
 use block::Block;
 use queue::Queue;
+use tape::Tapes;
 
 /// Cars in each lane. Five share each load of a weight, keep the CPU's arithmetic busy, and
 /// are as many as the pairs of the paper's training.
@@ -80,9 +84,9 @@ impl Fleet<'_> {
         let drives = self.individuals() * self.pairs.len();
         let threads = rayon::current_num_threads();
         let queue = Queue::new(self.individuals(), self.pairs.len(), threads, instructions, stop);
-        let work =
-            |_: rayon::BroadcastContext<'_>| instructions.run(Work { fleet: self, queue: &queue });
-        let done = rayon::broadcast(work);
+        let tapes = Tapes::of(self);
+        let work = Work { fleet: self, queue: &queue, tapes: &tapes };
+        let done = rayon::broadcast(|_| instructions.run(work));
         if stop.requested().is_some() {
             return None;
         }
@@ -100,9 +104,11 @@ impl Fleet<'_> {
 }
 
 /// What one thread does.
+#[derive(Clone, Copy)]
 struct Work<'a> {
     fleet: &'a Fleet<'a>,
     queue: &'a Queue<'a>,
+    tapes: &'a Tapes,
 }
 
 /// Outcomes with their places, and what else happened.
@@ -113,7 +119,7 @@ impl Kernel for Work<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(self) -> Done {
-        let mut block = Block::<V>::new(self.fleet, self.queue);
+        let mut block = Block::<V>::new(self.fleet, self.queue, self.tapes);
         while block.fill() {
             block.step();
         }

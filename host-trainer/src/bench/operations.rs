@@ -130,8 +130,7 @@ pub fn of_a_step(problem: &Problem) -> Parts {
         for (beam, ray) in model.fan().rays(&wide).iter().enumerate() {
             let target = ray.to_disc(&target);
             let hit = model.hit(number(2.0), target);
-            let distance = Counting::select(hit.wall, number(2.0), number(10.0));
-            sight.distance[beam] = Counting::select(hit.target, target, distance);
+            sight.distance[beam] = hit.distance;
             sight.wall[beam] = Counting::select(hit.wall, one, zero);
             sight.target[beam] = Counting::select(hit.target, one, zero);
         }

@@ -9,7 +9,6 @@ use controller_core::actuator::Actuator;
 use controller_core::geometry::{Body, Disc};
 use controller_core::lane::Lane;
 use controller_core::motion::Pose;
-use controller_core::observation::Echo;
 
 /// Everything about the car that does not change during a drive.
 #[derive(Clone, Debug)]
@@ -19,8 +18,10 @@ pub struct CarModel {
     delay: usize,
     turn_per_period: Option<f32>,
     fan: Fan,
-    noise: f32,
-    dropout: f32,
+    /// Standard deviation of a distance, metres.
+    pub(super) noise: f32,
+    /// Probability that a beam sees nothing.
+    pub(super) dropout: f32,
     on_collision: OnCollision,
     reached_by: ReachedBy,
     randomise: RandomiseSpec,
@@ -44,6 +45,8 @@ pub(crate) struct Hit<L: Lane> {
     pub(crate) target: L::Mask,
     /// On an obstacle.
     pub(crate) wall: L::Mask,
+    /// Metres to where it ends, or the range where it meets neither.
+    pub(crate) distance: L,
 }
 
 impl CarModel {
@@ -132,21 +135,9 @@ impl CarModel {
     pub(crate) fn hit<L: Lane>(&self, wall: L, target: L) -> Hit<L> {
         let range = L::from(self.range());
         let on_target = target.lt(wall) & target.le(range);
-        Hit { target: on_target, wall: wall.le(range) & !on_target }
-    }
-
-    /// What an imperfect sensor makes of a beam's echo.
-    pub(crate) fn disturbed(&self, echo: Echo, random: &mut Stream) -> Echo {
-        let mut noisy = |distance: f32| match self.noise {
-            0.0 => distance,
-            sigma => (distance + sigma * random.normal()).clamp(0.0, self.range()),
-        };
-        let echo = match echo {
-            Echo::Nothing => Echo::Nothing,
-            Echo::Wall(distance) => Echo::Wall(noisy(distance)),
-            Echo::Target(distance) => Echo::Target(noisy(distance)),
-        };
-        if self.dropout > 0.0 && random.chance(self.dropout) { Echo::Nothing } else { echo }
+        let on_wall = wall.le(range) & !on_target;
+        let distance = L::select(on_target, target, L::select(on_wall, wall, range));
+        Hit { target: on_target, wall: on_wall, distance }
     }
 
     /// Whether cars at these poses have reached their targets.

@@ -3,6 +3,7 @@
 use super::cars::Cars;
 use super::forward::Networks;
 use super::queue::{Job, Queue};
+use super::tape::Tapes;
 use super::{Done, Fleet, SLOTS, Tally};
 use crate::car::CarModel;
 use crate::episode::{Outcome, start_pose};
@@ -14,7 +15,7 @@ pub(super) struct Block<'a, V> {
     fleet: &'a Fleet<'a>,
     queue: &'a Queue<'a>,
     networks: Networks<V>,
-    cars: [Cars<V>; SLOTS],
+    cars: [Cars<'a, V>; SLOTS],
     /// Of each lane: what is left of its job.
     jobs: Vec<Job>,
     /// Of each slot and lane.
@@ -41,9 +42,10 @@ struct Drive {
 
 impl<'a, V: Vector> Block<'a, V> {
     /// A block without drives.
-    pub(super) fn new(fleet: &'a Fleet<'a>, queue: &'a Queue<'a>) -> Self {
+    pub(super) fn new(fleet: &'a Fleet<'a>, queue: &'a Queue<'a>, tapes: &'a Tapes) -> Self {
         let problem = fleet.problem;
-        let cars = || Cars::new(problem.model(), problem.world.target_radius);
+        let (model, radius) = (problem.model(), problem.world.target_radius);
+        let cars = || Cars::new(model, radius, tapes.source(model, V::WIDTH));
         Self {
             fleet,
             queue,
@@ -123,8 +125,7 @@ impl<'a, V: Vector> Block<'a, V> {
         let spec = &problem.scenario.episode;
         let pose = start_pose(&problem.world, model, spec, pair, &mut random);
         let exemplar = model.exemplar(&mut random);
-        let random = model.is_disturbed().then_some(random);
-        self.cars[slot].put(lane, &pose, pair.goal, &exemplar, random);
+        self.cars[slot].put(lane, &pose, pair.goal, &exemplar, (index, random));
         self.networks.forget(slot, lane);
     }
 
@@ -141,6 +142,11 @@ impl<'a, V: Vector> Block<'a, V> {
             poses[slot] = self.cars[slot].pose;
             rays[slot] = fan.rays(&poses[slot]);
             live[slot] = self.cars[slot].live;
+            if model.is_disturbed() {
+                // Long before it is used: numbers written one by one take a while until they can
+                // be read as a vector.
+                self.cars[slot].misread(model);
+            }
         }
         let walls = lookout.distances::<V, SLOTS, { SLOTS * BEAMS }>(fan, &poses, &rays, &live);
         for slot in 0..SLOTS {

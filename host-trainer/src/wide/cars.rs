@@ -1,6 +1,7 @@
 //! One car in each lane: what they see, and how they move.
 
-use crate::car::{CarModel, Exemplar};
+use super::tape::Source;
+use crate::car::{CarModel, Exemplar, Misreading};
 use crate::episode::Outcome;
 use crate::seed::Stream;
 use crate::vector::{Vector, ones};
@@ -8,11 +9,11 @@ use crate::world::{World, distance};
 use controller_core::actuator::turned;
 use controller_core::geometry::{Disc, Ray};
 use controller_core::motion::Pose;
-use controller_core::observation::{BEAMS, Echo, Sight};
+use controller_core::observation::{BEAMS, Sight};
 
 /// Cars side by side. Lanes without a drive hold a car that stands still; nobody asks it.
 #[derive(Debug)]
-pub(super) struct Cars<V> {
+pub(super) struct Cars<'a, V> {
     pub(super) pose: Pose<V>,
     target: Disc<V>,
     wheelbase: V,
@@ -26,8 +27,9 @@ pub(super) struct Cars<V> {
     collisions: V,
     /// 1 where the last period ended in a collision, else 0.
     blocked: V,
-    /// Noise and dropped beams of each car, where there are any.
-    random: Vec<Option<Stream>>,
+    /// Where noise and dropped beams come from, and what they are in this period.
+    source: Source<'a>,
+    misreading: Misreading<V>,
     /// Lanes with a drive, as bits.
     pub(super) live: u32,
 }
@@ -41,9 +43,9 @@ pub(super) struct Ends {
     pub(super) reached: u32,
 }
 
-impl<V: Vector> Cars<V> {
-    /// Cars of this model that stand somewhere.
-    pub(super) fn new(model: &CarModel, target_radius: f32) -> Self {
+impl<'a, V: Vector> Cars<'a, V> {
+    /// Cars of this model that stand somewhere and whose sensors are disturbed by that source.
+    pub(super) fn new(model: &CarModel, target_radius: f32, source: Source<'a>) -> Self {
         let zero = V::from(0.0);
         let one = V::from(1.0);
         Self {
@@ -58,19 +60,20 @@ impl<V: Vector> Cars<V> {
             path_length: zero,
             collisions: zero,
             blocked: zero,
-            random: (0..V::WIDTH).map(|_| None).collect(),
+            source,
+            misreading: Misreading { error: [zero; BEAMS] },
             live: 0,
         }
     }
 
-    /// Puts a car at its start.
+    /// Puts a car at its start, from where it drives this pair of the fleet.
     pub(super) fn put(
         &mut self,
         lane: usize,
         start: &Pose<f32>,
         goal: [f32; 2],
         exemplar: &Exemplar,
-        random: Option<Stream>,
+        (pair, random): (usize, Stream),
     ) {
         let Self { pose, target, .. } = self;
         let places = [
@@ -95,7 +98,7 @@ impl<V: Vector> Cars<V> {
         for value in self.waiting.iter_mut().flatten() {
             value.lanes_mut()[lane] = 0.0;
         }
-        self.random[lane] = random;
+        self.source.begin(lane, pair, random);
         self.live |= 1 << lane;
     }
 
@@ -119,55 +122,39 @@ impl<V: Vector> Cars<V> {
         pose_of(&self.pose, lane)
     }
 
+    /// Draws or looks up what the beams will misread in this period.
+    #[inline(never)]
+    pub(super) fn misread(&mut self, model: &CarModel) {
+        let error = &mut self.misreading.error;
+        self.source.next(self.live, model, |lane, misreading| {
+            for (all, error) in error.iter_mut().zip(misreading.error) {
+                all.lanes_mut()[lane] = error;
+            }
+        });
+    }
+
     /// What the beams report that have these rays and meet walls at these distances.
     #[inline(always)]
     pub(super) fn sense(
-        &mut self,
+        &self,
         model: &CarModel,
         rays: &[Ray<V>; BEAMS],
         walls: &[V; BEAMS],
     ) -> Sight<V> {
         let (zero, one) = (V::from(0.0), V::from(1.0));
-        let mut sight = Sight {
-            distance: [V::from(model.range()); BEAMS],
-            wall: [zero; BEAMS],
-            target: [zero; BEAMS],
-        };
+        let mut sight =
+            Sight { distance: [zero; BEAMS], wall: [zero; BEAMS], target: [zero; BEAMS] };
         for beam in 0..BEAMS {
             let target = rays[beam].to_disc(&self.target);
-            let hit = model.hit(walls[beam], target);
-            let distance = V::select(hit.wall, walls[beam], sight.distance[beam]);
-            sight.distance[beam] = V::select(hit.target, target, distance);
+            let mut hit = model.hit(walls[beam], target);
+            if model.is_disturbed() {
+                hit = model.misread(hit, self.misreading.error[beam]);
+            }
+            sight.distance[beam] = hit.distance;
             sight.wall[beam] = V::select(hit.wall, one, zero);
             sight.target[beam] = V::select(hit.target, one, zero);
         }
-        if model.is_disturbed() {
-            self.disturb(&mut sight, model);
-        }
         sight
-    }
-
-    /// The same through imperfect sensors, car by car and beam by beam.
-    #[inline(never)]
-    fn disturb(&mut self, sight: &mut Sight<V>, model: &CarModel) {
-        for lane in ones(self.live) {
-            let Some(random) = &mut self.random[lane] else { continue };
-            for beam in 0..BEAMS {
-                let distance = &mut sight.distance[beam].lanes_mut()[lane];
-                let wall = &mut sight.wall[beam].lanes_mut()[lane];
-                let target = &mut sight.target[beam].lanes_mut()[lane];
-                let echo = match (*wall != 0.0, *target != 0.0) {
-                    (_, true) => Echo::Target(*distance),
-                    (true, false) => Echo::Wall(*distance),
-                    (false, false) => Echo::Nothing,
-                };
-                (*distance, *wall, *target) = match model.disturbed(echo, random) {
-                    Echo::Nothing => (model.range(), 0.0, 0.0),
-                    Echo::Wall(distance) => (distance, 1.0, 0.0),
-                    Echo::Target(distance) => (distance, 0.0, 1.0),
-                };
-            }
-        }
     }
 
     /// Where cars come to stand that follow these commands, steer angles and step lengths, and how

@@ -1,8 +1,10 @@
 //! Every car of a fleet against the same drive alone, as bits.
 
-use super::Fleet;
 use super::block::Block;
 use super::queue::Queue;
+use super::tape::Tapes;
+use super::{Fleet, Tally};
+use crate::disturbances::Disturbances;
 use crate::episode::{Outcome, Trace};
 use crate::pairs::PairSampler;
 use crate::problem::{Problem, evaluation_drive};
@@ -11,7 +13,7 @@ use crate::scenario::{
 };
 use crate::seed::{Purpose, RunSeed};
 use crate::signals::StopFlag;
-use crate::vector::{Instructions, Kernel, Vector};
+use crate::vector::{Instructions, Kernel, MOST_LANES, Vector};
 use controller_core::activation::ActivationKind;
 use controller_core::network::RecurrenceKind;
 use controller_core::observation::{DistanceLaw, TypeCode};
@@ -197,6 +199,7 @@ fn ten_million_steps_of_a_fleet_are_those_of_drives_alone() {
 struct Watch<'a> {
     fleet: &'a Fleet<'a>,
     queue: &'a Queue<'a>,
+    tapes: &'a Tapes,
     traces: &'a [Trace],
 }
 
@@ -205,7 +208,7 @@ impl Kernel for Watch<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(self) -> usize {
-        let mut block = Block::<V>::new(self.fleet, self.queue);
+        let mut block = Block::<V>::new(self.fleet, self.queue, self.tapes);
         let mut seen = 0;
         while block.fill() {
             for (index, step, pose, hidden) in block.look() {
@@ -260,7 +263,9 @@ fn every_pose_and_every_hidden_output_is_that_of_the_drive_alone() {
     for set in Instructions::available() {
         let stop = StopFlag::default();
         let queue = Queue::new(23, pairs.len(), 1, set, &stop);
-        let seen = set.run(Watch { fleet: &fleet, queue: &queue, traces: &traces });
+        let tapes = Tapes::of(&fleet);
+        let watch = Watch { fleet: &fleet, queue: &queue, tapes: &tapes, traces: &traces };
+        let seen = set.run(watch);
         assert_eq!(seen, steps, "{set}");
     }
 }
@@ -312,4 +317,95 @@ fn a_fleet_that_drives_again_makes_every_step_and_keeps_its_first_outcomes() {
     assert!(again.tally.stopped > once.tally.stopped && once.tally.stopped > 20);
     let crashes = once.outcomes.iter().filter(|outcome| outcome.collisions > 0).count();
     assert_eq!(once.tally.stopped, crashes as u64);
+}
+
+/// A scenario in which everything about a drive is left to chance.
+fn by_chance(step_limit: u32) -> Problem {
+    let mut scenario = scenario::load(&scenario::find("complex").unwrap(), None, &[]).unwrap();
+    (scenario.sensors.noise, scenario.sensors.dropout) = (0.05, 0.1);
+    (scenario.episode.start_offset, scenario.episode.start_turn) = (0.3, 0.5);
+    scenario.episode.randomise = RandomiseSpec { wheelbase: 0.2, step: 0.1, steer_offset: 0.05 };
+    scenario.episode.step_limit = step_limit;
+    Problem::new(scenario).unwrap()
+}
+
+/// Drives so many individuals on one and on three threads, and each drive alone.
+fn misread_as_alone(individuals: usize, taped: bool) {
+    let problem = by_chance(150);
+    let pairs = pairs(&problem, MOST_LANES as u32 + 5, 6);
+    let genomes = genomes(&problem, individuals, 6);
+    let expected = alone(&problem, &genomes, &pairs, 6);
+    assert!(expected.iter().filter(|outcome| outcome.steps > 128).count() > 20);
+    let random = |pair| evaluation_drive(RunSeed(6), pair);
+    let fleet = Fleet {
+        problem: &problem,
+        genomes: &genomes,
+        pairs: &pairs,
+        random: &random,
+        again: false,
+    };
+    assert_eq!(Tapes::of(&fleet).are_used(), taped);
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        for set in Instructions::available() {
+            let drives = pool.install(|| fleet.drive(set, &StopFlag::default())).unwrap();
+            for (index, (found, expected)) in drives.outcomes.iter().zip(&expected).enumerate() {
+                assert_eq!(bits(found), bits(expected), "{set}, {threads} threads, drive {index}");
+            }
+        }
+    }
+}
+
+#[test]
+fn individuals_that_read_misreadings_from_tapes_drive_as_they_do_alone() {
+    misread_as_alone(20, true);
+}
+
+#[test]
+fn individuals_that_draw_their_own_misreadings_drive_as_they_do_alone() {
+    misread_as_alone(3, false);
+}
+
+#[test]
+fn a_tape_is_read_from_its_beginning_when_a_drive_begins_again() {
+    let mut problem = by_chance(150);
+    problem.scenario.episode.on_collision = OnCollision::Stop;
+    let problem = Problem::new(problem.scenario).unwrap();
+    let pairs = pairs(&problem, 5, 4);
+    let genomes = genomes(&problem, 12, 4);
+    let random = |pair| evaluation_drive(RunSeed(4), pair);
+    let tally = |genomes: &[f32], taped: bool| {
+        let fleet =
+            Fleet { problem: &problem, genomes, pairs: &pairs, random: &random, again: true };
+        assert_eq!(Tapes::of(&fleet).are_used(), taped);
+        fleet.drive(Instructions::of_this_cpu(), &StopFlag::default()).unwrap().tally
+    };
+    let together = tally(&genomes, true);
+    let mut one_by_one = Tally::default();
+    for genome in genomes.chunks(problem.topology().weights()) {
+        let one = tally(genome, false);
+        one_by_one.steps += one.steps;
+        one_by_one.stopped += one.stopped;
+        one_by_one.reached += one.reached;
+    }
+    assert_eq!(together, one_by_one);
+    assert!(together.stopped > 3 * 12 * 5);
+}
+
+#[test]
+fn there_are_tapes_only_where_something_is_misread_and_they_fit_into_256_mib() {
+    let used = |problem: &Problem, pairs: usize| {
+        let pairs = vec![Pair { start: [1.0, 1.0, 0.0], goal: [2.0, 2.0] }; pairs];
+        let genomes = genomes(problem, 4, 1);
+        let random = |pair| evaluation_drive(RunSeed(1), pair);
+        let fleet =
+            Fleet { problem, genomes: &genomes, pairs: &pairs, random: &random, again: false };
+        Tapes::of(&fleet).are_used()
+    };
+    let long = by_chance(100_000);
+    assert!(used(&long, 130) && !used(&long, 140));
+    let mut exact = by_chance(100);
+    assert!(used(&exact, 1));
+    exact.disturb(Disturbances::of(&exact.scenario).without_chance());
+    assert!(!used(&exact, 1));
 }
