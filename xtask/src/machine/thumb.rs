@@ -50,7 +50,8 @@ fn short(code: u16, pc: u32) -> (Stack, Flow) {
 
 fn long(first: u16, second: u16, pc: u32) -> (Stack, Flow) {
     let (high, low) = (u32::from(first), u32::from(second));
-    let into_sp = second >> 8 & 0x0f == 13;
+    // With its highest bit set the second half would be a branch's.
+    let into_sp = second & 0x8f00 == 0x0d00;
     let stack = match first {
         // PUSH.W
         0xe92d => Stack::Takes(4 * low.count_ones()),
@@ -138,6 +139,7 @@ mod tests {
             assert_eq!(at_1000(bytes).stack, Stack::Takes(taken), "{bytes:02x?}");
         }
         assert_eq!(at_1000(&[0xa5, 0x44]).stack, Stack::Unknown, "add sp, r4");
+        assert_eq!(at_1000(&[0xbd, 0xf5, 0x44, 0xad]).stack, Stack::Same, "bvs.w");
         assert_eq!(at_1000(&[0x04, 0xb0]).stack, Stack::Same, "add sp, #16");
         assert_eq!(at_1000(&[0xf0, 0xbd]).stack, Stack::Same, "pop {{r4, r5, r6, r7, pc}}");
     }
