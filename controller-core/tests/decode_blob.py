@@ -10,7 +10,7 @@ import sys
 RECURRENCES = ["feedforward", "self", "elman"]
 TANHS = ["rational", "libm", "micromath"]
 LAWS = ["linear", "saturating"]
-TYPE_CODES = ["any", "nearest", "share", "nearest-wall-any-target"]
+TYPE_CODES = ["any", "nearest", "share", "nearest-wall-any-target", "bearing"]
 WEIGHT_LIMIT = 1.0e6
 
 
@@ -70,7 +70,7 @@ class Header:
             refuse("layer widths or biases")
         if padding or struct.unpack_from("<H", data, 142)[0]:
             refuse("padding")
-        if recurrence > 2 or tanh > 2 or law > 1 or types > 3:
+        if recurrence > 2 or tanh > 2 or law > 1 or types > 4:
             refuse("unknown code")
         self.recurrence, self.tanh = RECURRENCES[recurrence], TANHS[tanh]
         self.law, self.types, self.biases = LAWS[law], TYPE_CODES[types], biases == 1

@@ -38,7 +38,7 @@ macro_rules! drive {
 /// The drive that a board with little flash goes without: other drives have its recurrence and its activation.
 pub const SPARE: &str = "elman-rational";
 
-/// Every recurrence and every activation at least once.
+/// Every recurrence, every activation and every type code at least once.
 pub static ALL: &[Drive] = &[
     drive!("feedforward-rational"),
     drive!("self-libm"),

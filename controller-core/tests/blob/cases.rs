@@ -81,7 +81,7 @@ fn case<R: Recurrence, const H: usize, const O: usize>(name: &'static str, heade
 }
 
 /// Every golden blob of format version 1.
-pub(crate) fn all() -> [Case; 7] {
+pub(crate) fn all() -> [Case; 8] {
     let plain = header(RecurrenceKind::Feedforward);
     let two_outputs = Header {
         topology: Topology { outputs: 2, ..plain.topology },
@@ -107,6 +107,16 @@ pub(crate) fn all() -> [Case; 7] {
         },
         ..plain
     };
+    let bearing = Header {
+        scaling: Scaling {
+            encoding: Encoding {
+                distance: DistanceLaw::Saturating { half: 0.5 },
+                types: TypeCode::Bearing,
+            },
+            ..plain.scaling
+        },
+        ..header(RecurrenceKind::SelfLoop)
+    };
     let wide = Header {
         topology: Topology { hidden: 24, ..plain.topology },
         activation: ActivationKind::Micromath,
@@ -127,6 +137,7 @@ pub(crate) fn all() -> [Case; 7] {
         case::<Feedforward, 12, 1>("no-biases", no_biases),
         case::<Feedforward, 12, 1>("saturating-libm", saturating),
         case::<Feedforward, 24, 1>("wide-micromath", wide),
+        case::<SelfLoop, 12, 1>("self-bearing", bearing),
     ]
 }
 
