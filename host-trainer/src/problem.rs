@@ -146,8 +146,8 @@ impl Problem {
         Stage { world, lookout, model, spec: &scenario.episode }
     }
 
-    /// Whether the same genome always costs the same: nothing about a drive is random and every
-    /// generation drives the same pairs.
+    /// Whether the same genome always costs the same: nothing about a drive is random, none is
+    /// under stress, and every generation drives the same pairs.
     pub fn is_stationary(&self) -> bool {
         use crate::scenario::{PairSource, RandomiseSpec};
         let Scenario { sensors, episode, pairs, training, .. } = &self.scenario;

@@ -349,7 +349,8 @@ fn no_pair(problem: &Problem, none: NoPair) -> Failure {
     Failure::bad_input(format!("{}: {none}", problem.scenario.name))
 }
 
-/// Most weights of a population: 256 MiB, of which training holds a few copies.
+/// Most weights of a population, and most coordinates of an archive: 256 MiB, of which training
+/// holds a few copies.
 const MOST_WEIGHTS: u64 = 1 << 26;
 
 /// Most drives in one generation; their outcomes are held until it is judged.
@@ -368,6 +369,16 @@ pub fn too_large(scenario: &Scenario) -> Option<Complaint> {
         return Some(Complaint::new("training.population", title, detail).or_at("network.hidden"));
     }
     let pairs = count_of_pairs(scenario);
+    let grows = scenario.training.novelty.map_or(0, |novelty| u64::from(novelty.archive_growth));
+    let archived = grows * u64::from(scenario.training.generations);
+    if archived * 2 * pairs > MOST_WEIGHTS {
+        let most = MOST_WEIGHTS / 2 / pairs;
+        let detail =
+            format!("found {archived} individuals with {pairs} ends each, expected at most {most}");
+        let title = "the archive of the novelty search grows too large";
+        let complaint = Complaint::new("training.novelty.archive_growth", title, detail);
+        return Some(complaint.or_at("training.generations"));
+    }
     if population * pairs > MOST_DRIVES {
         let detail = format!(
             "found {population} individuals with {pairs} pairs each, expected at most \

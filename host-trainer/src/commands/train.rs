@@ -159,8 +159,9 @@ impl Run {
         {
             if depends_on_generations(&manifest.scenario) {
                 return Err(Failure::bad_input(format!(
-                    "--generations: the run in {} changes its pairs or its mutation from its first \
-                     generation to its last, generation {}; expected that number, or a new run",
+                    "--generations: the run in {} changes its pairs, its mutation or its share of stressed \
+                     drives from its first generation to its last, generation {}; expected that \
+                     number, or a new run",
                     path.display(),
                     manifest.scenario.training.generations
                 )));

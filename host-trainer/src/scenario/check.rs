@@ -18,6 +18,7 @@ pub(super) fn complaints(scenario: &Scenario) -> Vec<Complaint> {
     if let Err(error) = scenario.training.ga.check() {
         found.push(search(&error));
     }
+    stress(scenario, &mut found);
     novelty(scenario, &mut found);
     found
 }
@@ -252,6 +253,17 @@ fn pair_in_room(scenario: &Scenario, index: usize, pair: &Pair, found: &mut Vec<
     }
 }
 
+/// A run ends with its targets reached only if it is the same car that drives, first and last.
+fn stress(scenario: &Scenario, found: &mut Vec<Complaint>) {
+    let TrainingSpec { stressed_share: share, until_reached, .. } = scenario.training;
+    if share > 0.0 && until_reached {
+        let title = "`training.until_reached` needs drives that are alike in each generation";
+        let detail = format!("found {share} of them under stress, expected none");
+        let complaint = Complaint::new("training.stressed_share", title, detail);
+        found.push(complaint.or_at("training.until_reached"));
+    }
+}
+
 /// Where drives end says how alike they were only if they had the same tasks.
 fn novelty(scenario: &Scenario, found: &mut Vec<Complaint>) {
     let TrainingSpec { population, novelty, until_reached, .. } = scenario.training;
@@ -266,7 +278,8 @@ fn novelty(scenario: &Scenario, found: &mut Vec<Complaint>) {
         }
     }
     if let Some(Err(error)) = novelty.map(|novelty| novelty.check(population)) {
-        let detail = format!("found {} of {population}, expected {}", error.found, error.expected);
+        let (value, expected) = (error.found, error.expected);
+        let detail = format!("found {value} for {population} individuals, expected {expected}");
         let key = format!("training.novelty.{}", error.setting);
         let title = "the settings of the novelty search do not fit together";
         found.push(Complaint::new(key, title, detail).or_at("training.population"));

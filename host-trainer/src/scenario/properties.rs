@@ -205,6 +205,9 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
             if matches!(pairs.source, PairSource::Drawn { resample: true, .. }) {
                 (training.until_reached, training.novelty) = (false, None);
             }
+            if training.until_reached {
+                training.stressed_share = 0.0;
+            }
             let ([distance, length, collision, bonus], [time, progress], (_, kind)) = costs;
             Scenario {
                 name: names.0,

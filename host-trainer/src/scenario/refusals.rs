@@ -156,6 +156,7 @@ const GEOMETRY: &[&str] = &[
     "[training.ga]\nsigma_end = 0.01",
     "[pairs]\nresample = true\n[training.novelty]\nneighbours = 15",
     "[pairs]\nresample = true\n[training]\nuntil_reached = true",
+    "[pairs]\ncount = 5\n[training]\nuntil_reached = true\nstressed_share = 0.5",
     "[training]\npopulation = 5\n[training.novelty]\narchive_growth = 6",
     "[training.novelty]\nneighbours = 0",
     "[training.novelty]\nneighbors = 15",

@@ -5,7 +5,7 @@ use host_trainer::fitness;
 use host_trainer::pairs::PairSampler;
 use host_trainer::problem::{Problem, training_drive, validation_drive};
 use host_trainer::seed::RunSeed;
-use host_trainer::training::{Snapshot, Training};
+use host_trainer::training::{ResumeError, Snapshot, Training};
 use rayon::ThreadPoolBuilder;
 
 /// A small run with everything random that there is.
@@ -70,6 +70,11 @@ const CHANGING: &str = "
     fan_in = true
 ";
 
+/// The same, short, and with ever more drives under stress.
+fn stressed() -> String {
+    CHANGING.replace("generations = 12", "generations = 4\n    stressed_share = 1")
+}
+
 /// A search by novelty, which keeps an archive.
 const NOVEL: &str = "
     [world]
@@ -101,7 +106,7 @@ fn trained(problem: &Problem, threads: usize, generations: u32) -> Vec<u8> {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
-    for settings in [EXACT, NOISY, CHANGING, NOVEL] {
+    for settings in [EXACT, NOISY, CHANGING, &stressed(), NOVEL] {
         let problem = Problem::new(from_toml(settings)).unwrap();
         let alone = trained(&problem, 1, 3);
         for threads in [2, 7] {
@@ -112,7 +117,8 @@ fn any_number_of_threads_gives_the_same_bytes() {
 
 #[test]
 fn a_run_goes_on_from_its_snapshot_as_if_nothing_had_happened() {
-    for (settings, before) in [(EXACT, 2), (NOISY, 2), (CHANGING, 9), (NOVEL, 4)] {
+    for (settings, before) in [(EXACT, 2), (NOISY, 2), (CHANGING, 9), (&stressed(), 2), (NOVEL, 4)]
+    {
         let problem = Problem::new(from_toml(settings)).unwrap();
         let mut first = Training::new(&problem, RunSeed(5)).unwrap();
         for _ in 0..before {
@@ -220,13 +226,31 @@ fn a_search_by_novelty_does_not_look_at_the_cost() {
     assert_eq!(bred("0"), bred("700"));
 }
 
+/// Seeds, pairs and genomes of the first generation are the same; what a drive under stress costs is
+/// not, and neither is who chooses the champion.
 #[test]
-fn a_snapshot_by_cost_is_refused_by_a_search_for_novelty() {
+fn drives_are_under_stress_from_the_second_generation_on() {
+    let first_rows = |share: &str| {
+        let settings = stressed().replace("stressed_share = 1", share);
+        let settings = settings.replace("resample = true", "resample = false");
+        let settings = settings.replace("mine = 0.5", "");
+        let settings = settings.replace("count_end = 16", "");
+        let problem = Problem::new(from_toml(&settings)).unwrap();
+        let mut training = Training::new(&problem, RunSeed(5)).unwrap();
+        [(); 2].map(|()| *training.step().unwrap())
+    };
+    let [calm, stressed] = ["", "stressed_share = 1"].map(first_rows);
+    assert_eq!(calm[0], stressed[0]);
+    assert_ne!(calm[1], stressed[1]);
+}
+
+#[test]
+fn a_snapshot_of_a_search_by_cost_is_another_run_than_one_by_novelty() {
     let by_cost = NOVEL.split("[training.novelty]").next().unwrap();
     let [novel, plain] = [NOVEL, by_cost].map(|text| Problem::new(from_toml(text)).unwrap());
     let snapshot = Training::new(&plain, RunSeed(5)).unwrap().snapshot();
     let mut training = Training::new(&novel, RunSeed(5)).unwrap();
-    assert!(training.restore(snapshot).is_err());
+    assert_eq!(training.restore(snapshot), Err(ResumeError::OtherRun));
     assert_eq!(training.archive().map(|archive| archive.len()), Some(0));
 }
 

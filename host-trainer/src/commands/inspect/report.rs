@@ -145,7 +145,9 @@ fn type_code_in_words(code: TypeCode) -> &'static str {
         TypeCode::Nearest => "nearest: 1 for what the shortest beam ends on",
         TypeCode::Share => "share: the share of beams that end on one",
         TypeCode::NearestWallAnyTarget => "nearest-wall-any-target: wall as nearest, target as any",
-        TypeCode::Bearing => "bearing: side of the target, and 1 if a beam ends on it",
+        TypeCode::Bearing => {
+            "bearing: side of the target, and 1 if a beam ends on it; the way there is free"
+        }
     }
 }
 
