@@ -2,6 +2,7 @@
 //!
 //! How each was made stands beside it in `champions/`: [`Champion::provenance`].
 
+use serde::Deserialize;
 use std::path::PathBuf;
 
 use crate::blob_file::{BlobFile, FileBytes};
@@ -28,12 +29,31 @@ macro_rules! champion {
 }
 
 /// Every champion that comes with the program; the first is shown where none is asked for.
-pub const CHAMPIONS: &[Champion] = &[champion!("open")];
+pub const CHAMPIONS: &[Champion] =
+    &[champion!("open"), champion!("obstacles"), champion!("complex")];
 
 impl Champion {
     /// The champion of this scene.
     pub fn of(scene: &str) -> Option<&'static Self> {
         CHAMPIONS.iter().find(|champion| champion.scene == scene)
+    }
+
+    /// Control periods that its drives may take, in the figures beside it and in training.
+    ///
+    /// # Panics
+    ///
+    /// If the file beside it does not say so: a test reads each.
+    pub fn step_limit(&self) -> u32 {
+        #[derive(Deserialize)]
+        struct Provenance {
+            unseen: Unseen,
+        }
+        #[derive(Deserialize)]
+        struct Unseen {
+            step_limit: u32,
+        }
+        let provenance: Provenance = toml::from_str(self.provenance).expect("figures");
+        provenance.unseen.step_limit
     }
 
     /// Its blob, as if read from the repository.
@@ -69,6 +89,7 @@ mod tests {
             let file = champion.file();
             assert_eq!(file.blob().header().provenance.scenario_name(), champion.scene);
             assert!(crate::scenario::find(champion.scene).is_ok());
+            assert!(champion.step_limit() > 0);
         }
     }
 }

@@ -39,8 +39,10 @@ fn parse_scene(text: &str) -> Result<String, String> {
 pub fn run(args: &DemoArgs, output: &mut Output) -> Result<(), Failure> {
     let Film { pairs, seed, .. } = args.film;
     args.film.check_page()?;
-    let champion = Champion::of(&args.scene).expect("the parser knows it").file();
-    let options = ScenarioOptions::default();
+    let champion = Champion::of(&args.scene).expect("the parser knows it");
+    let steps = format!("episode.step_limit={}", champion.step_limit());
+    let options = ScenarioOptions { set: vec![steps], ..ScenarioOptions::default() };
+    let champion = champion.file();
     let (problem, replaced) = problem_for(&champion, &args.scene, &options, output)?;
     let drawn = WhichPairs { listed: false };
     let pairs = drawn.pairs(&problem, &args.scene, &options, pairs, seed)?;

@@ -10,9 +10,10 @@ use super::threads::Threads;
 use crate::failure::{Failure, FailureKind};
 use crate::output::Output;
 use crate::reproduce::maze::MazeMethod;
-use crate::reproduce::{PaperScene, Plan, Setup, Trial, method};
+use crate::reproduce::method::{self, Method};
+use crate::reproduce::{PaperScene, Plan, Setup, Trial};
 use crate::run_folder::RunFolder;
-use crate::scenario::TrainingSpec;
+use crate::scenario::{Preset, TrainingSpec};
 use crate::seed::RunSeed;
 use crate::signals::StopFlag;
 use clap::ValueEnum;
@@ -69,8 +70,8 @@ pub struct ReproduceArgs {
     )]
     pairs: Option<u32>,
 
-    /// Methods to try beside the paper's, separated by commas; all if not given, `paper` for none; in
-    /// a maze some of novelty, distance and chance
+    /// Methods to try beside the paper's, separated by commas; all but `robust`, which takes minutes
+    /// for each run, if not given, `paper` for none; in a maze some of novelty, distance and chance
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = parse_method)]
     methods: Option<Vec<String>>,
 
@@ -217,15 +218,17 @@ fn begin(args: &ReproduceArgs) -> Result<Todo, Failure> {
             names.join(", ")
         )));
     }
-    let chosen = |name: &str| {
-        name == method::PAPER.name
-            || args.methods.as_ref().is_none_or(|names| names.iter().any(|n| n == name))
+    let chosen = |method: &Method| {
+        method.name == method::PAPER.name
+            || args.methods.as_ref().map_or(method.preset == Preset::Paper, |names| {
+                names.iter().any(|name| name == method.name)
+            })
     };
-    let methods = method::all().into_iter().map(|method| method.name.to_owned());
+    let methods = method::all().into_iter().filter(chosen);
     let plan = Plan {
         evosteer: env!("CARGO_PKG_VERSION").to_owned(),
         scenes: args.scene.scenes(),
-        methods: methods.filter(|name| chosen(name)).collect(),
+        methods: methods.map(|method| method.name.to_owned()).collect(),
         seed: args.seed.0,
         seeds: args.seeds.unwrap_or(SEEDS),
         pairs: args.pairs.unwrap_or(PAIRS),

@@ -7,7 +7,7 @@
 //! told the novelty in place of the cost, and breeds as ever.
 //!
 //! Lehman and Stanley archive what is more novel than a threshold that follows the run. Here each
-//! generation gives the archive a few individuals drawn by chance, as in their later work
+//! generation gives the archive a few individuals drawn by chance, as in other work of theirs
 //! ("Efficiently Evolving Programs through the Search for Novelty", GECCO 2010) and as Gomes,
 //! Mariano and Christensen advise ("Devising Effective Novelty Search Algorithms: A Comprehensive
 //! Empirical Study", GECCO 2015): there is no threshold to tune and to keep.

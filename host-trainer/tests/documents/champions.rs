@@ -46,11 +46,17 @@ fn trained_with(command: &str) -> (Scenario, RunSeed) {
     (scenario::load(&scenario::find(name).unwrap(), preset, &settings).unwrap(), seed)
 }
 
+/// How long its drives were in training.
+fn step_limit(champion: &Champion) -> u32 {
+    trained_with(command(champion)).0.episode.step_limit
+}
+
 /// How a champion drives its scene.
 fn figures(champion: &Champion) -> Evaluation {
     let file = champion.file();
     let mut scene = scenario::load(&scenario::find(champion.scene).unwrap(), None, &[]).unwrap();
     adopt_car(&mut scene, file.blob().header());
+    scene.episode.step_limit = step_limit(champion);
     let problem = Problem::new(scene).unwrap();
     let (count, seed) = UNSEEN;
     let pairs = PairSampler::new(&problem.world, &problem.scenario).unseen(seed, count).unwrap();
@@ -76,6 +82,7 @@ fn provenance(champion: &Champion) -> String {
     line(format!("generation = {}", made.generation));
     line(format!("sha256 = \"{}\"", fingerprint::sha256(file.bytes())));
     line(format!("\n[unseen]\nscenario = \"{scene}\""));
+    line(format!("step_limit = {}", step_limit(champion)));
     line(format!("pairs = {}", drives.pairs));
     line(format!("seed = {}", drives.seed));
     for (name, share, [low, high]) in [
