@@ -133,10 +133,10 @@ pub fn generated() -> Vec<WeightSet> {
         .flat_map(|recurrence| ACTIVATIONS.map(|activation| (recurrence, activation)));
     let encodings = [
         (DistanceLaw::Linear, TypeCode::Any),
-        (DistanceLaw::Saturating { half: 0.5 }, TypeCode::Share),
         (DistanceLaw::Linear, TypeCode::NearestWallAnyTarget),
-        (DistanceLaw::Saturating { half: 1.0 }, TypeCode::Nearest),
         (DistanceLaw::Saturating { half: 0.7 }, TypeCode::Bearing),
+        (DistanceLaw::Saturating { half: 1.0 }, TypeCode::Nearest),
+        (DistanceLaw::Saturating { half: 0.5 }, TypeCode::Share),
     ];
     kinds
         .zip(encodings.into_iter().cycle())
