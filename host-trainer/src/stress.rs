@@ -26,9 +26,14 @@ pub const SCALES: [f32; 3] = [0.5, 1.0, 2.0];
 const FULL: f32 = 1.0;
 
 /// A car whose control periods last this long, seconds, with every factor at its full size.
-pub fn in_full(mut car: Disturbances, period: f32) -> Disturbances {
-    for factor in Factor::ALL {
-        factor.disturb(factor.full() * FULL, period, &mut car);
+pub fn in_full(car: Disturbances, period: f32) -> Disturbances {
+    with(&Factor::ALL, FULL, car, period)
+}
+
+/// The same with these factors at this scale.
+fn with(factors: &[Factor], scale: f32, mut car: Disturbances, period: f32) -> Disturbances {
+    for factor in factors {
+        factor.disturb(factor.full() * scale, period, &mut car);
     }
     car
 }
@@ -137,10 +142,7 @@ impl Stress {
     ) -> Option<Self> {
         let calm_outcomes = drive(calm)?;
         let mut level = |scale, factors: &[Factor]| {
-            let mut disturbed = calm;
-            for factor in factors {
-                factor.disturb(factor.full() * scale, period, &mut disturbed);
-            }
+            let disturbed = with(factors, scale, calm, period);
             let magnitude = match factors {
                 [factor] => Some(factor.full() * scale),
                 _ => None,

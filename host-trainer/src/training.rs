@@ -203,8 +203,12 @@ impl<'a> Training<'a> {
     /// Whether somebody reached the targets of all pairs in a run that
     /// [ends](TrainingSpec::until_reached) with that.
     pub fn is_solved(&self) -> bool {
-        let last = self.history.last();
-        self.problem.scenario.training.until_reached && last.is_some_and(|row| row.reached == 1.0)
+        self.history.last().is_some_and(|row| self.solves(row))
+    }
+
+    /// Whether the best of this generation ends the run.
+    fn solves(&self, row: &MetricsRow) -> bool {
+        self.problem.scenario.training.until_reached && row.reached == 1.0
     }
 
     /// Whether there is nothing left to do.
@@ -283,8 +287,7 @@ impl<'a> Training<'a> {
         let best = self.best_of(&costs, &drives, pairs.len());
         let Some(cost) = self.validated(best, costs[best], stop) else { return Ok(None) };
         let row = row::row(generation, &costs, &drives, pairs.len(), best);
-        let solves = self.problem.scenario.training.until_reached && row.reached == 1.0;
-        self.keep(generation, cost, best, solves);
+        self.keep(generation, cost, best, self.solves(&row));
         self.kept = hard::hardest(&pairs, &drives, scenario.pairs.mine);
         self.ends = ends(&drives, pairs.len());
         match &mut self.novelty {

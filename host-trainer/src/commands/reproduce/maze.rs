@@ -1,9 +1,10 @@
 //! `evosteer reproduce medium-maze`: novelty search beside a search for the goal, and beside what
 //! the literature says of both.
 
+use super::trials::none_missing;
 use super::{ReproduceArgs, Which, enough_seeds_after, fewer_seeds};
 use crate::commands::advice::counted;
-use crate::failure::{Failure, FailureKind};
+use crate::failure::Failure;
 use crate::output::{Output, TrialProgress};
 use crate::report::page;
 use crate::reproduce::maze::course::{Course, Published, SOURCE};
@@ -139,7 +140,7 @@ impl Mazes {
             }
         }
         let total = setups.len() * plan.seeds as usize;
-        let mut done = total - jobs.len();
+        let done = total - jobs.len();
         output.status(format_args!(
             "{}: {}, {}, {} ({done} done), {}, in {}",
             plan.courses.iter().map(|course| course.name()).collect::<Vec<_>>().join(", "),
@@ -155,7 +156,6 @@ impl Mazes {
             if let Event::Done { job, trial } = event {
                 let MazeTask { setup, seed } = jobs[job];
                 trial.write(setup, folder)?;
-                done += 1;
                 progress.advance(1);
                 progress.trial(output, brief(setup, seed, &trial));
                 let (setup, seed) = missing[job];
@@ -165,15 +165,7 @@ impl Mazes {
         });
         progress.finish();
         result?;
-        let whole: Option<Vec<Vec<MazeTrial>>> =
-            all.into_iter().map(|trials| trials.into_iter().collect()).collect();
-        whole.ok_or_else(|| {
-            // Only a signal leaves a trial undone.
-            let signal = stop.requested().unwrap_or_default();
-            let message =
-                format!("stopped after {done} of {}, each kept", counted(total as u64, "trial"));
-            Failure::new(FailureKind::Interrupted { signal }, message)
-        })
+        none_missing(all, stop)
     }
 
     fn finish(&self, trials: &[Vec<MazeTrial>], output: &mut Output) -> Result<(), Failure> {

@@ -40,7 +40,7 @@ pub(super) fn all(
         .map(|(setup, seed)| Task { setup: &setups[*setup], seed: seeds[*seed] })
         .collect();
     let total = setups.len() * seeds.len();
-    let mut done = total - jobs.len();
+    let done = total - jobs.len();
     output.status(format_args!(
         "{}: {}, {}, {}, {} ({done} done), {}, in {}",
         plan.scenes.iter().map(|scene| scene.name()).collect::<Vec<_>>().join(", "),
@@ -59,7 +59,6 @@ pub(super) fn all(
             Event::Done { job, trial } => {
                 let Task { setup, seed } = jobs[job];
                 trial.write(setup, folder)?;
-                done += 1;
                 progress.trial(output, finish::brief(setup, seed, &trial));
                 let (setup, seed) = missing[job];
                 all[setup][seed] = Some(trial);
@@ -69,10 +68,23 @@ pub(super) fn all(
     });
     progress.finish();
     result?;
-    let whole: Option<Vec<Vec<Trial>>> =
+    none_missing(all, stop)
+}
+
+/// The trials, if every one is done.
+///
+/// # Errors
+///
+/// [`FailureKind::Interrupted`]: only a signal leaves a trial undone.
+pub(super) fn none_missing<T>(
+    all: Vec<Vec<Option<T>>>,
+    stop: &StopFlag,
+) -> Result<Vec<Vec<T>>, Failure> {
+    let total: usize = all.iter().map(Vec::len).sum();
+    let done = all.iter().flatten().flatten().count();
+    let whole: Option<Vec<Vec<T>>> =
         all.into_iter().map(|trials| trials.into_iter().collect()).collect();
     whole.ok_or_else(|| {
-        // Only a signal leaves a trial undone.
         let signal = stop.requested().unwrap_or_default();
         let message =
             format!("stopped after {done} of {}, each kept", counted(total as u64, "trial"));
