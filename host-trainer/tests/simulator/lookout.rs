@@ -293,6 +293,76 @@ proptest! {
     }
 }
 
+/// Discs that touch, overlap or just miss each other: a field of cells like BARN's, and strings of
+/// beads.
+fn touching_discs(offset: f32, random: &mut Stream) -> Vec<Disc<f32>> {
+    let mut discs = Vec::new();
+    let radius = [0.075, 0.05, 0.2][random.index(3)];
+    for cell in 0..400 {
+        if random.chance(0.35) {
+            let at = |index: usize| offset + (index as f32 + 0.5) * 2.0 * radius;
+            discs.push(Disc { centre: (at(cell % 20), at(cell / 20)), radius });
+        }
+    }
+    for _ in 0..random.index(6) {
+        let (mut x, mut y) = (random.within(-3.0, 6.0), random.within(-3.0, 6.0));
+        let turn = random.within(-PI, PI);
+        let (dx, dy) = (libm::cosf(turn), libm::sinf(turn));
+        let radius = random.within(0.02, 0.5);
+        let apart = radius * [2.0, 2.0, 1.7, 2.0001][random.index(4)];
+        for _ in 0..1 + random.index(9) {
+            discs.push(Disc { centre: (offset + x, offset + y), radius });
+            (x, y) = (x + dx * apart, y + dy * apart);
+        }
+    }
+    discs
+}
+
+proptest! {
+    /// Beams go anywhere, between two neighbours, or along a disc's edge.
+    #[test]
+    fn in_any_field_of_discs_a_lookout_sees_and_feels_what_every_disc_says(
+        seed: u64,
+        offset in prop_oneof![Just(0.0_f32), -300.0_f32..300.0],
+        range in prop_oneof![Just(10.0_f32), 0.5_f32..40.0],
+    ) {
+        let mut random = random(seed);
+        let discs = touching_discs(offset, &mut random);
+        prop_assume!(!discs.is_empty());
+        let mounts = mounts(USUAL);
+        let mut pair = Pair::new(Vec::new(), discs.clone(), Fan::new(&mounts, range), BODY);
+        for _ in 0..80 {
+            let (mut x, mut y) =
+                (offset + random.within(-3.0, 7.0), offset + random.within(-3.0, 7.0));
+            let disc = discs[random.index(discs.len())];
+            let (cx, cy) = disc.centre;
+            let nearest = |other: &&Disc<f32>| {
+                let apart = libm::hypotf(other.centre.0 - cx, other.centre.1 - cy);
+                if apart == 0.0 { u32::MAX } else { apart.to_bits() }
+            };
+            let (nx, ny) = discs.iter().min_by_key(nearest).unwrap().centre;
+            let heading = match random.index(5) {
+                0 => random.within(-PI, PI),
+                1 => libm::atan2f((cy + ny) * 0.5 - y, (cx + nx) * 0.5 - x),
+                3 => {
+                    // Square to both, so that it grazes both.
+                    let away = random.within(0.0, 5.0);
+                    let (ux, uy) = (ny - cy, cx - nx);
+                    let apart = libm::hypotf(ux, uy).max(1e-3);
+                    (x, y) = ((cx + nx) * 0.5 + ux / apart * away, (cy + ny) * 0.5 + uy / apart * away);
+                    libm::atan2f(-uy, -ux)
+                }
+                2 => {
+                    let half = libm::asinf((disc.radius / libm::hypotf(cx - x, cy - y)).min(1.0));
+                    libm::atan2f(cy - y, cx - x) + if random.chance(0.5) { half } else { -half }
+                }
+                _ => random.within(-8.5, 8.5).round() * (PI / 8.0),
+            };
+            pair.compare(&Pose::new(x, y, heading - mounts[random.index(BEAMS)].angle));
+        }
+    }
+}
+
 #[test]
 fn a_pose_outside_of_every_cell_or_not_a_number_is_answered_like_any_other() {
     let walls = vec![Segment { a: (0.0, 0.0), b: (1.0, 0.0) }];

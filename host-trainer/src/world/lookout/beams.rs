@@ -78,11 +78,12 @@ impl<V: Vector> Beams<V> {
         let is_disc = are_discs(&row);
         let (distance, inside) = self.wall_ahead(row);
         let disc = Disc { centre: (row[0], row[1]), radius: row[2] };
-        let infinity = V::from(f32::INFINITY);
         let distance = V::select(is_disc, self.ray.to_disc(&disc), distance);
-        let inside = V::select(is_disc, infinity, inside.abs());
+        let (dx, dy) = self.ray.direction;
+        let aside = (row[0] - self.ray.origin.0) * dy - (row[1] - self.ray.origin.1) * dx;
+        let inside = V::select(is_disc, aside.abs() - disc.radius, inside);
         self.near = distance.min(self.near);
-        self.past = inside.min(self.past);
+        self.past = inside.abs().min(self.past);
     }
 
     /// Distance to a wall, and how far inside of its nearer end the beam's line passes, metres;
@@ -113,7 +114,7 @@ impl<V: Vector> Beams<V> {
         V::select(within, self.near + V::from(0.0), V::from(f32::INFINITY))
     }
 
-    /// Which beams' lines pass any tested wall's end within `slack` metres.
+    /// Which beams' lines pass any tested wall's end, or a disc's edge, within `slack` metres.
     #[inline(always)]
     pub(super) fn doubtful(&self, slack: f32) -> V::Mask {
         self.past.le(V::from(slack))

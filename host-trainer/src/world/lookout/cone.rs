@@ -5,11 +5,15 @@
 //! rounding computes near an end of a wall is another matter: a beam that passes any listed
 //! wall's end within [`Limits::slack`] gets its answer from all obstacles instead. A beam that
 //! does not is sure to meet the chain, no later than at its farthest point.
+//!
+//! Discs that touch hide the same way: the line through their middles lies inside of them, from
+//! beyond one side of all beams to beyond the other. There it is the beams that graze a listed
+//! disc within the slack that are answered from all obstacles: one may slip between two.
 
 use super::candidate::Candidate;
 use super::grid::Arc;
 use super::rounding::Limits;
-use crate::world::shape::{Point, Rect, cross, dot, length, minus};
+use crate::world::shape::{Point, Rect, Shape, cross, dot, length, minus};
 
 /// Longest chain of walls looked for.
 const LONGEST: usize = 24;
@@ -23,6 +27,23 @@ pub(super) struct Cone<'a> {
     aside: [[f64; 2]; 2],
     /// For each edge of the arc: the most of `edge · corner`.
     ahead: [f64; 2],
+}
+
+/// Discs that touch.
+struct Group {
+    discs: Vec<usize>,
+    /// How far a beam goes at most that crosses the line through their middles.
+    farthest: f64,
+    /// Whether the line begins left of all beams, and ends right of them.
+    sides: [bool; 2],
+}
+
+impl Group {
+    fn join(&mut self, other: &Self) {
+        self.discs.extend(&other.discs);
+        self.farthest = self.farthest.max(other.farthest);
+        self.sides = [self.sides[0] || other.sides[0], self.sides[1] || other.sides[1]];
+    }
 }
 
 impl<'a> Cone<'a> {
@@ -56,6 +77,11 @@ impl<'a> Cone<'a> {
             {
                 (nearest, is_chain) = (behind, walls > 1);
             }
+        }
+        if let Some((behind, discs)) = self.behind_discs(met)
+            && behind < nearest
+        {
+            (nearest, is_chain) = (behind, discs > 1);
         }
         met.retain(|candidate| {
             let (distance, error) = self.least_distance(candidate);
@@ -103,6 +129,52 @@ impl<'a> Cone<'a> {
         Some((farthest + self.limits.slack, count))
     }
 
+    /// How far a beam goes at most that crosses a group of discs that touch, if all beams cross the
+    /// same, and how many discs that has: the first such group when they join it by their distance.
+    fn behind_discs(&self, met: &[&Candidate]) -> Option<(f64, usize)> {
+        let mut groups: Vec<Group> = Vec::new();
+        for (index, candidate) in met.iter().enumerate() {
+            let Some(mut mine) = self.alone(index, candidate) else { continue };
+            groups.retain(|group| {
+                let touches = group.discs.iter().any(|disc| self.touch(met[*disc], candidate));
+                if touches {
+                    mine.join(group);
+                }
+                !touches
+            });
+            if mine.sides == [true; 2] {
+                return Some((mine.farthest + self.limits.slack, mine.discs.len()));
+            }
+            groups.push(mine);
+        }
+        None
+    }
+
+    /// A disc with the line across it, from its left to its right; none if that is not ahead of
+    /// all beams, or a beam may start inside.
+    fn alone(&self, index: usize, candidate: &Candidate) -> Option<Group> {
+        let Shape { ends: [middle, _], radius, .. } = candidate.shape;
+        if candidate.shape.radius == 0.0 || candidate.distance <= self.limits.slack {
+            return None;
+        }
+        let [[rx, ry], [lx, ly]] = self.arc.edges;
+        let [dx, dy] = [rx + lx, ry + ly];
+        let scale = radius / length([dx, dy]);
+        let left = [middle[0] - dy * scale, middle[1] + dx * scale];
+        let right = [middle[0] + dy * scale, middle[1] - dx * scale];
+        let line = [left, middle, right];
+        let farthest = most(line.map(|point| self.farthest(point))) + candidate.rounding.distance;
+        let sides = [self.side(left) > 0.0, self.side(right) < 0.0];
+        let group = Group { discs: vec![index], farthest, sides };
+        line.iter().all(|point| self.is_ahead(*point)).then_some(group)
+    }
+
+    /// Whether no beam passes between two discs, but for what the slack covers.
+    fn touch(&self, a: &Candidate, b: &Candidate) -> bool {
+        let apart = length(minus(a.shape.ends[0], b.shape.ends[0]));
+        apart <= a.shape.radius + b.shape.radius + self.limits.joint
+    }
+
     /// A wall that goes on from another's end, and which of its ends that is.
     fn next(
         &self,
@@ -134,9 +206,13 @@ impl<'a> Cone<'a> {
                 return true;
             }
         }
-        let edges = || self.arc.edges.into_iter().zip(self.ahead);
-        let is_ahead = |point: &Point| edges().all(|(edge, most)| dot(edge, *point) - most > slack);
-        candidate.shape.ends.iter().all(is_ahead)
+        candidate.shape.ends.iter().all(|end| self.is_ahead(*end))
+    }
+
+    /// Whether a point lies ahead of wherever a beam starts, with the slack to spare.
+    fn is_ahead(&self, point: Point) -> bool {
+        let mut edges = self.arc.edges.into_iter().zip(self.ahead);
+        edges.all(|(edge, most)| dot(edge, point) - most > self.limits.slack)
     }
 
     /// On which side of all beams' lines a point lies, with the slack to spare: 1 left, -1
