@@ -97,20 +97,7 @@ impl<'a> PairSampler<'a> {
         seed: RunSeed,
         generation: u32,
     ) -> Result<Vec<Pair>, NoPair> {
-        match &scenario.pairs.source {
-            PairSource::Listed(pairs) => Ok(pairs.clone()),
-            PairSource::Drawn { count, resample } => {
-                let generations = scenario.training.generations;
-                let count = scenario.pairs.count_at(*count, progress(generation, generations));
-                let kept = &kept[..kept.len().min(count as usize)];
-                let generation = if *resample { generation } else { 0 };
-                let mut pairs = self.draw(count - kept.len() as u32, |index| {
-                    seed.stream(Purpose::TrainingPairs, generation, index)
-                })?;
-                pairs.extend_from_slice(kept);
-                Ok(pairs)
-            }
-        }
+        training_in(std::slice::from_ref(self), kept, scenario, seed, generation)
     }
 
     /// Pairs that choose the champion: neither trained on nor part of an evaluation.
@@ -119,7 +106,7 @@ impl<'a> PairSampler<'a> {
     ///
     /// A world in which no pair is found.
     pub fn validation(&self, seed: RunSeed, count: u32) -> Result<Vec<Pair>, NoPair> {
-        self.draw(count, |index| seed.stream(Purpose::ValidationPairs, 0, index))
+        validation_in(std::slice::from_ref(self), seed, count)
     }
 
     /// Pairs that no training has ever seen: their random numbers serve no other purpose.
@@ -128,11 +115,8 @@ impl<'a> PairSampler<'a> {
     ///
     /// A world in which no pair is found.
     pub fn unseen(&self, seed: RunSeed, count: u32) -> Result<Vec<Pair>, NoPair> {
-        self.draw(count, |index| seed.stream(Purpose::EvaluationPairs, 0, index))
-    }
-
-    fn draw(&self, count: u32, stream: impl Fn(u32) -> Stream) -> Result<Vec<Pair>, NoPair> {
-        (0..count).map(|index| self.pair(&mut stream(index))).collect()
+        let stream = |index| seed.stream(Purpose::EvaluationPairs, 0, index);
+        draw(std::slice::from_ref(self), count, stream)
     }
 
     /// One pair: body and target clear of obstacles, any heading, far enough apart, both in the
@@ -159,6 +143,58 @@ impl<'a> PairSampler<'a> {
         }
         Err(NoPair { min_distance: self.min_distance, tries: TRIES })
     }
+}
+
+/// The pairs that training drives in this generation where it has several worlds, each with its
+/// sampler: they take turns, so that pair `i` lies in world `i` modulo their number. Kept pairs
+/// take the places of the last ones.
+///
+/// # Errors
+///
+/// A world in which no pair is found.
+pub fn training_in(
+    worlds: &[PairSampler<'_>],
+    kept: &[Pair],
+    scenario: &Scenario,
+    seed: RunSeed,
+    generation: u32,
+) -> Result<Vec<Pair>, NoPair> {
+    match &scenario.pairs.source {
+        PairSource::Listed(pairs) => Ok(pairs.clone()),
+        PairSource::Drawn { count, resample } => {
+            let generations = scenario.training.generations;
+            let count = scenario.pairs.count_at(*count, progress(generation, generations));
+            let kept = &kept[..kept.len().min(count as usize)];
+            let generation = if *resample { generation } else { 0 };
+            let mut pairs = draw(worlds, count - kept.len() as u32, |index| {
+                seed.stream(Purpose::TrainingPairs, generation, index)
+            })?;
+            pairs.extend_from_slice(kept);
+            Ok(pairs)
+        }
+    }
+}
+
+/// Pairs that choose the champion where training has several worlds, which take turns.
+///
+/// # Errors
+///
+/// A world in which no pair is found.
+pub fn validation_in(
+    worlds: &[PairSampler<'_>],
+    seed: RunSeed,
+    count: u32,
+) -> Result<Vec<Pair>, NoPair> {
+    draw(worlds, count, |index| seed.stream(Purpose::ValidationPairs, 0, index))
+}
+
+fn draw(
+    worlds: &[PairSampler<'_>],
+    count: u32,
+    stream: impl Fn(u32) -> Stream,
+) -> Result<Vec<Pair>, NoPair> {
+    let taking_turns = worlds.iter().cycle();
+    (0..count).zip(taking_turns).map(|(index, world)| world.pair(&mut stream(index))).collect()
 }
 
 impl PairSpec {

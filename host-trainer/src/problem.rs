@@ -20,7 +20,7 @@ use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 /// A scenario, built.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Problem {
     /// What it was built from.
     pub scenario: Scenario,
@@ -28,7 +28,7 @@ pub struct Problem {
     pub world: Arc<World>,
     model: CarModel,
     lookout: Arc<Lookout>,
-    space: OnceLock<Arc<FreeSpace>>,
+    space: Arc<OnceLock<Arc<FreeSpace>>>,
     scaling: Scaling,
     topology: Topology,
     activation: ActivationKind,
@@ -45,7 +45,7 @@ impl Problem {
         let model = CarModel::new(&scenario);
         Ok(Self {
             lookout: Arc::new(model.lookout(&world)),
-            space: OnceLock::new(),
+            space: Arc::default(),
             world: Arc::new(world),
             model,
             scaling: scaling_of(&scenario),
@@ -65,17 +65,9 @@ impl Problem {
     /// The same problem for a car that is imperfect in this way. It shares the world.
     #[must_use]
     pub fn disturbed(&self, disturbances: Disturbances) -> Self {
-        let Self { world, lookout, space, .. } = self;
-        let mut scenario = self.scenario.clone();
-        disturbances.put_into(&mut scenario);
-        Self {
-            world: Arc::clone(world),
-            lookout: Arc::clone(lookout),
-            space: space.clone(),
-            model: CarModel::new(&scenario),
-            scenario,
-            ..*self
-        }
+        let mut problem = self.clone();
+        problem.disturb(disturbances);
+        problem
     }
 
     /// The network that is searched for.

@@ -8,6 +8,7 @@
 //! | `checkpoint-a.bin`, `checkpoint-b.bin` | state to resume from: [`crate::checkpoint`] | in turn |
 //! | `champion.blob` | the best controller | at the end |
 //! | `plots/*.svg`, `report.html` | pictures and the report | at the end |
+//! | `worlds/*.toml`, `worlds/*.svg` | the random worlds it trained in, where it made any | at the end |
 //! | `lock` | nothing; whoever holds its lock owns the folder | |
 
 pub mod manifest;
@@ -47,6 +48,8 @@ impl RunFolder {
     pub const CHAMPION: &'static str = "champion.blob";
     /// The folder of the plots.
     pub const PLOTS: &'static str = "plots";
+    /// The folder of the worlds that a run made for itself to train in.
+    pub const WORLDS: &'static str = "worlds";
     /// The self-contained report.
     pub const REPORT: &'static str = "report.html";
     /// Holds the lock.
@@ -207,9 +210,10 @@ impl RunFolder {
             }
         }
         files::remove_strays(path)?;
-        let plots = path.join(Self::PLOTS);
-        if plots.is_dir() {
-            files::remove_strays(&plots)?;
+        for part in [Self::PLOTS, Self::WORLDS].map(|part| path.join(part)) {
+            if part.is_dir() {
+                files::remove_strays(&part)?;
+            }
         }
         files::check_writable(path)?;
         Ok(Self { path: path.to_owned(), lock })

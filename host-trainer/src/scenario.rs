@@ -366,6 +366,40 @@ fn is_zero(share: &f32) -> bool {
     *share == 0.0
 }
 
+/// Random worlds that a run makes for itself from its seed, as [`generate`] does. Their sizes and
+/// densities differ; car, sensors, target and rules are the scenario's.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WorldsSpec {
+    /// How many with scattered boxes.
+    pub boxes: u32,
+    /// How many with round pillars.
+    pub pillars: u32,
+    /// How many with rooms and doors.
+    pub rooms: u32,
+    /// How many with a field of thin cylinders like BARN's.
+    pub barn_like: u32,
+    /// Shortest and longest side, metres.
+    pub side: [f32; 2],
+}
+
+impl WorldsSpec {
+    /// No world yet, of usual sides.
+    pub const NONE: Self = Self { boxes: 0, pillars: 0, rooms: 0, barn_like: 0, side: [8.0, 16.0] };
+
+    /// Most worlds of one kind.
+    pub const MOST: u32 = 100;
+
+    /// How many of each kind, in the order of [`generate::Kind::ALL`].
+    pub fn counts(&self) -> [u32; 4] {
+        [self.boxes, self.pillars, self.rooms, self.barn_like]
+    }
+
+    /// How many worlds in all.
+    pub fn total(&self) -> u32 {
+        self.counts().iter().sum()
+    }
+}
+
 /// The search.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingSpec {
@@ -387,6 +421,9 @@ pub struct TrainingSpec {
     /// all pairs.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub until_reached: bool,
+    /// Random worlds to train in instead of the scenario's own; none trains in that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worlds: Option<WorldsSpec>,
     /// The genetic algorithm.
     pub ga: GaSpec,
     /// How novelty is measured, if that is what selects; none selects by cost.

@@ -58,11 +58,13 @@ pub enum Purpose {
     ValidationDrive = 10,
     /// Which individuals of one generation join the archive of a novelty search.
     NoveltyArchive = 11,
+    /// The worlds that a run makes for itself to train in; index: world.
+    TrainingWorld = 12,
 }
 
 impl Purpose {
     /// Every purpose, by number.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::InitialPopulation,
         Self::Breeding,
         Self::TrainingPairs,
@@ -74,6 +76,7 @@ impl Purpose {
         Self::ValidationPairs,
         Self::ValidationDrive,
         Self::NoveltyArchive,
+        Self::TrainingWorld,
     ];
 }
 

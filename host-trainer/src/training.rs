@@ -5,9 +5,11 @@
 //! | --- | --- |
 //! | `scales` | how large each weight of a network is, typically |
 //! | `hard` | which pairs the next generation keeps |
+//! | `grounds` | the worlds that training drives in |
 //! | `test_drives` | whole generations of drives, some of them with a worse car |
 //! | `row` | what the metrics say of a generation |
 
+mod grounds;
 mod hard;
 mod row;
 mod scales;
@@ -20,9 +22,10 @@ use crate::evolve::{Cost, Novelty, Optimizer, RestoreError, SearchSpace, State};
 use crate::failure::Failure;
 use crate::fingerprint;
 use crate::fitness;
-use crate::pairs::{NoPair, PairSampler};
+use crate::pairs::{self, NoPair};
 use crate::problem::{Problem, topology_of, training_drive, validation_drive};
 use crate::run_folder::MetricsRow;
+use crate::scenario::generate::Recipe;
 use crate::scenario::{Complaint, Pair, PairSource, Scenario, TrainingSpec};
 use crate::seed::RunSeed;
 use crate::signals::StopFlag;
@@ -91,10 +94,9 @@ impl std::error::Error for ResumeError {}
 /// A training run in memory; files are the caller's business.
 pub struct Training<'a> {
     problem: &'a Problem,
-    test_drives: TestDrives<'a>,
+    test_drives: TestDrives,
     run: RunId,
     seed: RunSeed,
-    sampler: PairSampler<'a>,
     search: Box<dyn Optimizer>,
     /// What the search is told in place of costs, if anything.
     novelty: Option<Novelty>,
@@ -113,7 +115,8 @@ impl<'a> Training<'a> {
     ///
     /// # Errors
     ///
-    /// Settings of the search that make no sense, or a world in which no pair is found.
+    /// Settings of the search that make no sense, a world in which no pair is found, or random
+    /// worlds without a way through.
     pub fn new(problem: &'a Problem, seed: RunSeed) -> Result<Self, Failure> {
         let spec = &problem.scenario.training;
         let space = SearchSpace {
@@ -125,9 +128,11 @@ impl<'a> Training<'a> {
         let outlook = Outlook { generations: spec.generations, scales };
         let search = Ga::with_outlook(space, spec.ga, outlook, seed)
             .map_err(|error| Failure::bad_input(format!("training: {error}")))?;
-        let sampler = problem.sampler();
+        let test_drives = TestDrives::new(problem, seed)?;
         let validation = match problem.scenario.pairs.source {
-            PairSource::Drawn { .. } => sampler.validation(seed, spec.validation_pairs),
+            PairSource::Drawn { .. } => {
+                pairs::validation_in(&test_drives.samplers(), seed, spec.validation_pairs)
+            }
             PairSource::Listed(_) => Ok(Vec::new()),
         };
         let validation = validation.map_err(|none| no_pair(problem, none))?;
@@ -138,10 +143,9 @@ impl<'a> Training<'a> {
         let novelty = spec.novelty.map(|novelty| Novelty::new(novelty, coordinates, seed));
         Ok(Self {
             problem,
-            test_drives: TestDrives::new(problem),
+            test_drives,
             run,
             seed,
-            sampler,
             search,
             novelty,
             ends: Behaviours::none(coordinates),
@@ -239,7 +243,8 @@ impl<'a> Training<'a> {
         self.best.as_ref()
     }
 
-    /// The pairs that the generation drove in which this best individual was found.
+    /// The pairs that the generation drove in which this best individual was found; pair `i` lies
+    /// in world `i` modulo the number of [worlds](Self::worlds), if it made any.
     ///
     /// # Errors
     ///
@@ -249,9 +254,27 @@ impl<'a> Training<'a> {
     }
 
     fn pairs(&self, generation: u32, kept: &[Pair]) -> Result<Vec<Pair>, Failure> {
-        let scenario = &self.problem.scenario;
-        let pairs = self.sampler.training_beside(kept, scenario, self.seed, generation);
+        let (samplers, scenario) = (self.test_drives.samplers(), &self.problem.scenario);
+        let pairs = pairs::training_in(&samplers, kept, scenario, self.seed, generation);
         pairs.map_err(|none| no_pair(self.problem, none))
+    }
+
+    /// The worlds that the run made for itself to drive in; none if it drives in the problem's own.
+    pub fn worlds(&self) -> impl Iterator<Item = Recipe> {
+        let worlds = self.problem.scenario.training.worlds;
+        worlds.into_iter().flat_map(|worlds| grounds::recipes(worlds, self.seed))
+    }
+
+    /// How this best individual drives the [pairs](Self::pairs_of) of its generation, each in its
+    /// world, with the car as it is described; none once `stop` is raised.
+    ///
+    /// # Errors
+    ///
+    /// A world in which no pair is found.
+    pub fn drives_of(&self, best: &Best, stop: &StopFlag) -> Result<Option<Vec<Outcome>>, Failure> {
+        let (pairs, seed) = (self.pairs_of(best)?, self.seed);
+        let random = |pair| training_drive(seed, best.generation, pair);
+        Ok(self.test_drives.of(&best.genome, 0.0, &pairs, &random, stop))
     }
 
     /// Judges the current generation on the current rayon pool and breeds the next.

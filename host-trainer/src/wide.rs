@@ -81,15 +81,30 @@ impl Fleet<'_> {
 
     /// Drives on the current rayon pool; none once `stop` is raised.
     pub fn drive(&self, instructions: Instructions, stop: &StopFlag) -> Option<Drives> {
-        let drives = self.individuals() * self.pairs.len();
-        let threads = rayon::current_num_threads();
+        self.drive_by(rayon::current_num_threads(), instructions, stop, |work| {
+            rayon::broadcast(|_| instructions.run(work))
+        })
+    }
+
+    /// Drives on this thread alone; none once `stop` is raised.
+    pub fn drive_here(&self, instructions: Instructions, stop: &StopFlag) -> Option<Drives> {
+        self.drive_by(1, instructions, stop, |work| vec![instructions.run(work)])
+    }
+
+    fn drive_by(
+        &self,
+        threads: usize,
+        instructions: Instructions,
+        stop: &StopFlag,
+        all: impl FnOnce(Work<'_>) -> Vec<Done>,
+    ) -> Option<Drives> {
         let queue = Queue::new(self.individuals(), self.pairs.len(), threads, instructions, stop);
         let tapes = Tapes::of(self);
-        let work = Work { fleet: self, queue: &queue, tapes: &tapes };
-        let done = rayon::broadcast(|_| instructions.run(work));
+        let done = all(Work { fleet: self, queue: &queue, tapes: &tapes });
         if stop.requested().is_some() {
             return None;
         }
+        let drives = self.individuals() * self.pairs.len();
         let mut all = Drives { outcomes: vec![Outcome::default(); drives], ..Drives::default() };
         for (outcomes, tally) in done {
             for (index, outcome) in outcomes {

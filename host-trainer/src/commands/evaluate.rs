@@ -1,6 +1,7 @@
 //! `evosteer evaluate`: how good is a champion where it has never been?
 
 mod stress;
+mod table;
 
 use super::advice::counted;
 use super::film::check_destination;
@@ -12,9 +13,9 @@ use crate::evaluation::{Evaluation, Share, outcomes};
 use crate::failure::Failure;
 use crate::files;
 use crate::output::Output;
-use crate::problem::{Replaced, evaluation_drive};
+use crate::problem::{Problem, Replaced, evaluation_drive};
 use crate::scenario::Pair;
-use crate::seed::RunSeed;
+use crate::seed::{RunSeed, Stream};
 use crate::signals::StopFlag;
 use crate::stress::Stress;
 use serde::Serialize;
@@ -26,8 +27,10 @@ pub struct EvaluateArgs {
     /// A weight blob, or a run folder for its champion.blob
     champion: PathBuf,
 
-    /// A scenario: the name of a shipped one, a file, or a run folder for its scenario
-    scenario: String,
+    /// A scenario: the name of a shipped one, a file, or a run folder for its scenario; of several, a
+    /// table
+    #[arg(required = true)]
+    scenarios: Vec<String>,
 
     /// How many pairs to draw
     #[arg(
@@ -71,15 +74,15 @@ pub struct EvaluateArgs {
     pub json: bool,
 }
 
-/// What `--json` prints.
+/// What `--json` prints of one scenario.
 #[derive(Debug, Serialize)]
-struct Report<'a> {
+struct Report {
     champion: String,
-    scenario: &'a str,
+    scenario: String,
     /// What the champion's own car replaced in the scenario's.
     champions_car: Vec<Replaced>,
     #[serde(flatten)]
-    evaluation: &'a Evaluation,
+    evaluation: Evaluation,
     #[serde(flatten)]
     drivable: Option<Drivable>,
     #[serde(flatten)]
@@ -107,40 +110,25 @@ pub fn run(args: &EvaluateArgs, output: &mut Output) -> Result<(), Failure> {
         check_destination(file, args.force)?;
     }
     let champion = BlobFile::read(&args.champion)?;
-    let (mut problem, replaced) = problem_for(&champion, &args.scenario, &args.options, output)?;
-    let all = args.which.pairs(&problem, &args.scenario, &args.options, args.pairs, args.seed)?;
-    let what = if args.which.listed { "listed pair" } else { "unseen pair" };
-    let looked_at = counted(all.len() as u64, what);
-    let kept: Vec<usize> = if args.drivable {
-        Planner::new(&problem).drivable(&all)
-    } else {
-        (0..all.len()).collect()
-    };
-    if kept.is_empty() {
-        return Err(Failure::bad_input(format!(
-            "--drivable: no path is found for any of {looked_at} of {}; without the option they \
-             are driven all the same",
-            problem.scenario.name
-        )));
+    match &args.scenarios[..] {
+        [scenario] => one(args, &champion, scenario, output),
+        several => table::print(args, &champion, several, output),
     }
-    let share = Share { count: kept.len() as u32, of: all.len() as u32 };
-    let pairs: Vec<Pair> = kept.iter().map(|index| all[*index]).collect();
-    // A pair keeps its random numbers, whichever others are left out.
-    let place = |index: u32| evaluation_drive(args.seed, kept[index as usize] as u32);
-    // Nothing to save: a signal ends the process.
-    let never = StopFlag::default();
-    let weights = champion.blob();
-    let outcomes = outcomes(&problem, weights.weights(), &pairs, place, &never)
-        .expect("nobody raises this flag");
-    let evaluation = Evaluation::summary(&outcomes, args.seed);
-    output.line(format_args!(
-        "{} on {}, {looked_at}, seed {}",
-        champion.path().display(),
-        problem.scenario.name,
-        args.seed
-    ));
+}
+
+/// Evaluates in one scenario, in full.
+fn one(
+    args: &EvaluateArgs,
+    champion: &BlobFile,
+    scenario: &str,
+    output: &mut Output,
+) -> Result<(), Failure> {
+    let mut task = Task::new(args, champion, scenario, output)?;
+    let evaluation = task.evaluation(champion);
+    let title = format!("{} on {}", champion.path().display(), task.problem.scenario.name);
+    output.line(format_args!("{title}, {}, seed {}", task.looked_at(), args.seed));
     if args.drivable {
-        output.line(format_args!("  drivable         {share}; only these are driven"));
+        output.line(format_args!("  drivable         {}; only these are driven", task.share()));
     }
     output.line(format_args!("  reached          {}", evaluation.reached_share()));
     output.line(format_args!("  clean            {}", evaluation.clean_share()));
@@ -149,14 +137,10 @@ pub fn run(args: &EvaluateArgs, output: &mut Output) -> Result<(), Failure> {
     }
     output.line(format_args!("  collisions       {:.2} per drive", evaluation.mean_collisions));
     output.line("  (shares with their 95 % confidence intervals)");
-    let stress = args.stress.then(|| {
-        Stress::test(&mut problem, weights.weights(), &pairs, place, &never)
-            .expect("nobody raises this flag")
-    });
+    let stress = args.stress.then(|| task.stress(champion));
     if let Some(stress) = &stress {
         stress::print(stress, output);
         if let Some(file) = &args.out {
-            let title = format!("{} on {}", champion.path().display(), problem.scenario.name);
             let picture = stress::picture(title, stress);
             if args.force {
                 files::write(file, picture.as_bytes())?;
@@ -166,17 +150,93 @@ pub fn run(args: &EvaluateArgs, output: &mut Output) -> Result<(), Failure> {
             output.line(format_args!("wrote {}", file.display()));
         }
     }
-    output.json(&Report {
-        champion: champion.path().display().to_string(),
-        scenario: &problem.scenario.name,
-        champions_car: replaced,
-        evaluation: &evaluation,
-        drivable: args.drivable.then(|| Drivable {
-            drawn: share.of,
-            drivable: share.value(),
-            drivable_interval: share.interval(),
-        }),
-        stress,
-    });
+    output.json(&task.report(champion, evaluation, stress));
     Ok(())
+}
+
+/// A champion's pairs in one scenario.
+struct Task<'a> {
+    args: &'a EvaluateArgs,
+    problem: Problem,
+    replaced: Vec<Replaced>,
+    /// How many pairs were looked at.
+    of: u32,
+    /// Places and pairs of those that are driven.
+    kept: Vec<u32>,
+    pairs: Vec<Pair>,
+}
+
+impl<'a> Task<'a> {
+    fn new(
+        args: &'a EvaluateArgs,
+        champion: &BlobFile,
+        scenario: &str,
+        output: &mut Output,
+    ) -> Result<Self, Failure> {
+        let (problem, replaced) = problem_for(champion, scenario, &args.options, output)?;
+        let all = args.which.pairs(&problem, scenario, &args.options, args.pairs, args.seed)?;
+        let kept: Vec<usize> = if args.drivable {
+            Planner::new(&problem).drivable(&all)
+        } else {
+            (0..all.len()).collect()
+        };
+        let pairs = kept.iter().map(|place| all[*place]).collect();
+        let kept = kept.into_iter().map(|place| place as u32).collect();
+        let task = Self { args, problem, replaced, of: all.len() as u32, kept, pairs };
+        if task.kept.is_empty() {
+            return Err(Failure::bad_input(format!(
+                "--drivable: no path is found for any of {} of {}; without the option they are \
+                 driven all the same",
+                task.looked_at(),
+                task.problem.scenario.name
+            )));
+        }
+        Ok(task)
+    }
+
+    fn looked_at(&self) -> String {
+        let what = if self.args.which.listed { "listed pair" } else { "unseen pair" };
+        counted(u64::from(self.of), what)
+    }
+
+    /// The share of pairs that are driven.
+    fn share(&self) -> Share {
+        Share { count: self.kept.len() as u32, of: self.of }
+    }
+
+    /// A pair keeps its random numbers, whichever others are left out.
+    fn place(&self) -> impl Fn(u32) -> Stream + Sync + use<> {
+        let (seed, kept) = (self.args.seed, self.kept.clone());
+        move |index| evaluation_drive(seed, kept[index as usize])
+    }
+
+    fn evaluation(&self, champion: &BlobFile) -> Evaluation {
+        let weights = champion.blob().weights();
+        // Nothing to save: a signal ends the process.
+        let never = StopFlag::default();
+        let drives = outcomes(&self.problem, weights, &self.pairs, self.place(), &never);
+        Evaluation::summary(&drives.expect("nobody raises this flag"), self.args.seed)
+    }
+
+    fn stress(&mut self, champion: &BlobFile) -> Stress {
+        let (place, never) = (self.place(), StopFlag::default());
+        Stress::test(&mut self.problem, champion.blob().weights(), &self.pairs, place, &never)
+            .expect("nobody raises this flag")
+    }
+
+    fn report(self, champion: &BlobFile, evaluation: Evaluation, stress: Option<Stress>) -> Report {
+        let share = self.share();
+        Report {
+            champion: champion.path().display().to_string(),
+            scenario: self.problem.scenario.name,
+            champions_car: self.replaced,
+            evaluation,
+            drivable: self.args.drivable.then(|| Drivable {
+                drawn: share.of,
+                drivable: share.value(),
+                drivable_interval: share.interval(),
+            }),
+            stress,
+        }
+    }
 }

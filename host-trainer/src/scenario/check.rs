@@ -20,6 +20,7 @@ pub(super) fn complaints(scenario: &Scenario) -> Vec<Complaint> {
     }
     stress(scenario, &mut found);
     novelty(scenario, &mut found);
+    worlds(scenario, &mut found);
     found
 }
 
@@ -283,6 +284,40 @@ fn novelty(scenario: &Scenario, found: &mut Vec<Complaint>) {
         let key = format!("training.novelty.{}", error.setting);
         let title = "the settings of the novelty search do not fit together";
         found.push(Complaint::new(key, title, detail).or_at("training.population"));
+    }
+}
+
+/// Each world has its pairs in each generation, and they stay in it.
+fn worlds(scenario: &Scenario, found: &mut Vec<Complaint>) {
+    let Some(worlds) = scenario.training.worlds else { return };
+    let total = worlds.total();
+    if total == 0 {
+        let title = "there is no world to train in";
+        let detail = "found 0 of each kind, expected 1 or more of some kind";
+        found.push(Complaint::new("training.worlds.boxes", title, detail).or_at("training.worlds"));
+    }
+    let title = "`training.worlds` draws pairs in each world";
+    match scenario.pairs.source {
+        PairSource::Listed(_) => {
+            let detail = "found pairs listed for the scenario's own world, expected drawn ones";
+            found.push(Complaint::new("pairs.list", title, detail).or_at("training.worlds"));
+        }
+        PairSource::Drawn { count, .. } => {
+            for (key, count) in [("count", Some(count)), ("count_end", scenario.pairs.count_end)] {
+                if let Some(count) = count.filter(|count| *count < total) {
+                    let detail =
+                        format!("found {count} pairs for {total} worlds, expected {total} or more");
+                    let complaint = Complaint::new(format!("pairs.{key}"), title, detail);
+                    found.push(complaint.or_at("training.worlds"));
+                }
+            }
+        }
+    }
+    let mine = scenario.pairs.mine;
+    if mine > 0.0 {
+        let title = "pairs that are kept would lie in another world";
+        let detail = format!("found a share of {mine}, expected 0 with `training.worlds`");
+        found.push(Complaint::new("pairs.mine", title, detail).or_at("training.worlds"));
     }
 }
 

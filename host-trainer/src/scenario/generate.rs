@@ -154,6 +154,24 @@ impl Recipe {
     /// Longest side of a world like BARN's, metres: it has 20 cylinders per square metre.
     pub const LONGEST_BARN: f32 = 20.0;
 
+    /// A world of this kind with sides in this range, metres. Its density is from a quarter of the
+    /// usual one to half as much again.
+    pub fn drawn(
+        kind: Kind,
+        [shortest, longest]: [f32; 2],
+        random: &mut crate::seed::Stream,
+    ) -> Self {
+        let longest =
+            if kind == Kind::BarnLike { longest.min(Self::LONGEST_BARN) } else { longest };
+        let size = [(); 2].map(|()| round(random.within(shortest.min(longest), longest)));
+        let [low, high] = kind.densities();
+        let usual = kind.usual_density();
+        let density = random.within(low.max(usual * 0.25), high.min(usual * 1.5));
+        // As short as somebody would type them, to see the world.
+        let density = (density * 100.0).round() / 100.0;
+        Self { kind, seed: RunSeed(random.index(1 << 32) as u64), size, density }
+    }
+
     /// Makes the world.
     ///
     /// # Errors

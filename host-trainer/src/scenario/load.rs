@@ -123,8 +123,8 @@ fn documents<'a>(
     settings: &'a [Setting],
 ) -> Vec<Document<'a>> {
     let file = Document { label: &source.label, text: Cow::from(&source.text) };
-    let over = preset.map(Preset::over).filter(|over| !over.is_empty());
-    let over = over.map(|text| Document { label: "--preset", text: Cow::from(text) });
+    let over = preset.map_or(&[] as &[&str], Preset::over).iter();
+    let over = over.map(|text| Document { label: "--preset", text: Cow::from(*text) });
     let options =
         settings.iter().map(|setting| Document { label: &setting.option, text: setting.toml() });
     std::iter::once(file).chain(over).chain(options).collect()

@@ -18,29 +18,34 @@ pub enum Preset {
     Paper,
     /// Drives clean where it has never been: more pairs, other costs, another mutation.
     Robust,
+    /// The same in many random worlds: one controller for places that nobody has described.
+    Generalist,
     /// Searches for what nobody has done yet, until a target is reached: for mazes.
     Novelty,
 }
 
 impl Preset {
     /// Every preset, in the order they are listed to people.
-    pub const ALL: [Self; 3] = [Self::Paper, Self::Robust, Self::Novelty];
+    pub const ALL: [Self; 4] = [Self::Paper, Self::Robust, Self::Generalist, Self::Novelty];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
             Self::Robust => "robust",
+            Self::Generalist => "generalist",
             Self::Novelty => "novelty",
         }
     }
 
-    /// What goes over a scenario file, as a scenario file. The paper's settings lie under it.
-    pub(super) fn over(self) -> &'static str {
+    /// What goes over a scenario file, as scenario files of which later ones win. The paper's
+    /// settings lie under it.
+    pub(super) fn over(self) -> &'static [&'static str] {
         match self {
-            Self::Paper => "",
-            Self::Robust => include_str!("robust.toml"),
-            Self::Novelty => include_str!("novelty.toml"),
+            Self::Paper => &[],
+            Self::Robust => &[include_str!("robust.toml")],
+            Self::Generalist => &[include_str!("robust.toml"), include_str!("generalist.toml")],
+            Self::Novelty => &[include_str!("novelty.toml")],
         }
     }
 
@@ -125,6 +130,7 @@ pub(super) fn paper() -> Scenario {
             validation_pairs: 0,
             stressed_share: 0.0,
             until_reached: false,
+            worlds: None,
             ga: GaSpec::PAPER,
             novelty: None,
         },

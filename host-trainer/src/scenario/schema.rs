@@ -299,8 +299,20 @@ impl Record for TrainingSpec {
         let about = "end when somebody reaches all targets; off if left out";
         v.value("until_reached", &mut until_reached, shapes::Maybe(Flag), about);
         self.until_reached = until_reached.unwrap_or(false);
+        v.optional_section("worlds", &mut self.worlds, WorldsSpec::NONE);
         v.section("ga", &mut self.ga);
         v.optional_section("novelty", &mut self.novelty, NoveltySpec::USUAL);
+    }
+}
+
+impl Record for WorldsSpec {
+    fn visit(&mut self, v: &mut impl Visit) {
+        let count = Whole { low: 0, high: Self::MOST };
+        v.value("boxes", &mut self.boxes, count, "worlds with scattered boxes");
+        v.value("pillars", &mut self.pillars, count, "worlds with round pillars");
+        v.value("rooms", &mut self.rooms, count, "worlds with rooms and doors");
+        v.value("barn_like", &mut self.barn_like, count, "fields of cylinders, like BARN's");
+        v.value("side_m", &mut self.side, shapes::Sides, "[shortest, longest] side of a world");
     }
 }
 

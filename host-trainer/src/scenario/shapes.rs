@@ -136,6 +136,34 @@ impl Codec<[f32; 2]> for Point {
     }
 }
 
+/// `[shortest, longest]` side of a random world.
+#[derive(Clone, Copy)]
+pub(super) struct Sides;
+
+impl Sides {
+    const KINDS: [Number; 2] = [Number::metres(5.0, 50.0); 2];
+}
+
+impl Codec<[f32; 2]> for Sides {
+    fn read(&self, found: &Found<'_>, problems: &mut Vec<Problem>) -> Option<[f32; 2]> {
+        let [shortest, longest] = numbers(found, Self::KINDS, &self.expected(), problems)?;
+        if shortest <= longest {
+            return Some([shortest, longest]);
+        }
+        let detail = format!("found {shortest} above {longest}, expected the smaller one first");
+        found.refuse("is in the wrong order", detail, problems);
+        None
+    }
+
+    fn write(&self, value: &[f32; 2]) -> Option<String> {
+        write_numbers(*value, Self::KINDS)
+    }
+
+    fn expected(&self) -> String {
+        "sides [shortest, longest] from 5 m to 50 m".to_owned()
+    }
+}
+
 /// `[x, y, heading]`: metres and degrees in the file, radians in the scenario.
 #[derive(Clone, Copy)]
 pub(super) struct Pose;

@@ -1,30 +1,38 @@
 //! What a population's individuals are judged by: their drives, a share of them with a worse car.
 
-use crate::disturbances::Disturbances;
+use super::grounds::{Ground, grounds};
 use crate::episode::Outcome;
+use crate::failure::Failure;
+use crate::pairs::PairSampler;
 use crate::problem::Problem;
 use crate::scenario::Pair;
-use crate::seed::Stream;
+use crate::seed::{RunSeed, Stream};
 use crate::signals::StopFlag;
-use crate::stress;
 use crate::vector::Instructions;
 use crate::wide::Fleet;
+use rayon::prelude::*;
 
-/// The scenario's car, and the same under stress for a share of the pairs.
+/// Drives in each world with the scenario's car, and with the same under stress for a share of
+/// the pairs. Pair `i` lies in world `i` modulo their number.
 #[derive(Debug)]
-pub(super) struct TestDrives<'a> {
-    as_described: &'a Problem,
-    stressed: Option<Problem>,
+pub(super) struct TestDrives {
+    grounds: Vec<Ground>,
 }
 
-impl<'a> TestDrives<'a> {
-    pub(super) fn new(problem: &'a Problem) -> Self {
-        let scenario = &problem.scenario;
-        let stressed = (scenario.training.stressed_share > 0.0).then(|| {
-            let car = Disturbances::of(scenario).without_chance();
-            problem.disturbed(stress::in_full(car, scenario.episode.period))
-        });
-        Self { as_described: problem, stressed }
+/// The drives of one car in one world: who, and the places of its pairs.
+struct Part<'a> {
+    problem: &'a Problem,
+    places: Vec<usize>,
+}
+
+impl TestDrives {
+    pub(super) fn new(problem: &Problem, seed: RunSeed) -> Result<Self, Failure> {
+        Ok(Self { grounds: grounds(problem, seed)? })
+    }
+
+    /// What draws pairs, world by world.
+    pub(super) fn samplers(&self) -> Vec<PairSampler<'_>> {
+        self.grounds.iter().map(Ground::sampler).collect()
     }
 
     /// Every individual's drives, all of the first individual, then of the second; none once
@@ -38,39 +46,61 @@ impl<'a> TestDrives<'a> {
         random: &(dyn Fn(u32) -> Stream + Sync),
         stop: &StopFlag,
     ) -> Option<Vec<Outcome>> {
-        let Some(stressed) = &self.stressed else {
-            return drives(self.as_described, genomes, pairs, random, stop);
+        let parts = self.parts(pairs.len(), share);
+        let drive = |part: &Part<'_>, threads| {
+            let chosen: Vec<Pair> = part.places.iter().map(|place| pairs[*place]).collect();
+            let random = |index: u32| random(part.places[index as usize] as u32);
+            let fleet = Fleet {
+                problem: part.problem,
+                genomes,
+                pairs: &chosen,
+                random: &random,
+                again: false,
+            };
+            let instructions = Instructions::in_use();
+            let drives = if threads == 1 {
+                fleet.drive_here(instructions, stop)
+            } else {
+                fleet.drive(instructions, stop)
+            };
+            Some(drives?.outcomes)
         };
-        let individuals = genomes.len() / self.as_described.topology().weights();
+        let threads = rayon::current_num_threads();
+        // Every fleet ends with cars that wait for its longest drive: many small ones wait side
+        // by side.
+        let driven: Vec<Option<Vec<Outcome>>> = if parts.len() >= 4 * threads {
+            parts.par_iter().map(|part| drive(part, 1)).collect()
+        } else {
+            parts.iter().map(|part| drive(part, threads)).collect()
+        };
+        let individuals = genomes.len() / self.grounds[0].as_described.topology().weights();
         let mut all = vec![Outcome::default(); individuals * pairs.len()];
-        for (problem, of_stressed) in [(self.as_described, false), (stressed, true)] {
-            let places: Vec<usize> = (0..pairs.len())
-                .filter(|place| is_stressed(*place, share) == of_stressed)
-                .collect();
-            let chosen: Vec<Pair> = places.iter().map(|place| pairs[*place]).collect();
-            let random = |index: u32| random(places[index as usize] as u32);
-            let outcomes = drives(problem, genomes, &chosen, &random, stop)?;
-            for (index, outcome) in outcomes.into_iter().enumerate() {
-                let (individual, place) = (index / chosen.len(), places[index % chosen.len()]);
-                all[individual * pairs.len() + place] = outcome;
+        for (part, outcomes) in parts.iter().zip(driven) {
+            for (index, outcome) in outcomes?.into_iter().enumerate() {
+                let (individual, place) = (index / part.places.len(), index % part.places.len());
+                all[individual * pairs.len() + part.places[place]] = outcome;
             }
         }
         Some(all)
     }
+
+    /// Who drives which pairs.
+    fn parts(&self, pairs: usize, share: f64) -> Vec<Part<'_>> {
+        let worlds = self.grounds.len();
+        let mut parts = Vec::new();
+        for (world, Ground { as_described, stressed }) in self.grounds.iter().enumerate() {
+            let places = (world..pairs).step_by(worlds);
+            let (worse, same): (Vec<usize>, Vec<usize>) =
+                places.partition(|place| stressed.is_some() && is_stressed(place / worlds, share));
+            parts.push(Part { problem: as_described, places: same });
+            parts.extend(stressed.iter().map(|problem| Part { problem, places: worse.clone() }));
+        }
+        parts.retain(|part| !part.places.is_empty());
+        parts
+    }
 }
 
-fn drives(
-    problem: &Problem,
-    genomes: &[f32],
-    pairs: &[Pair],
-    random: &(dyn Fn(u32) -> Stream + Sync),
-    stop: &StopFlag,
-) -> Option<Vec<Outcome>> {
-    let fleet = Fleet { problem, genomes, pairs, random, again: false };
-    fleet.drive(Instructions::in_use(), stop).map(|drives| drives.outcomes)
-}
-
-/// Whether the pair at this place is driven under stress: of the first `n` places
+/// Whether the pair at this place of its world is driven under stress: of the first `n` places
 /// `share * n` are, rounded down.
 fn is_stressed(place: usize, share: f64) -> bool {
     let before = |places: usize| (places as f64 * share) as u64;
@@ -80,9 +110,10 @@ fn is_stressed(place: usize, share: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::disturbances::Disturbances;
     use crate::problem::training_drive;
     use crate::scenario::{PairSource, Preset};
-    use crate::seed::RunSeed;
+    use crate::stress;
 
     #[test]
     fn stressed_pairs_are_spread_evenly() {
@@ -113,7 +144,10 @@ mod tests {
         let stop = StopFlag::default();
         let of = |problem: &Problem| {
             let share = problem.scenario.training.stressed_share.into();
-            TestDrives::new(problem).of(&genomes, share, &pairs, &random, &stop).unwrap()
+            TestDrives::new(problem, RunSeed(1))
+                .unwrap()
+                .of(&genomes, share, &pairs, &random, &stop)
+                .unwrap()
         };
         let (half, always, calm, worse) = (of(&half), of(&always), of(&calm), of(&worse));
         assert_ne!(calm, worse);

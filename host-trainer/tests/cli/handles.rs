@@ -72,5 +72,6 @@ fn a_barn_world_with_its_listed_pair() {
     bench.say("train barn_000 --out run --population 12 --generations 3").ends_in(0);
     bench.say("evaluate run barn_000 --listed").ends_in(0);
     bench.say("evaluate run barn_264 --pairs 20").ends_in(0);
+    bench.say("evaluate run barn_000 barn_264 --listed").ends_in(0);
     bench.say("replay run barn_000 --listed").ends_in(0);
 }

@@ -89,6 +89,30 @@ fn a_stress_test_adds_its_keys_and_changes_none() {
 }
 
 #[test]
+fn several_scenarios_make_a_table_whose_sum_is_that_of_each_alone() {
+    let bench = Bench::new();
+    bench.train("open", "run", &[]).ends_in(0);
+    let both = json(&bench, "evaluate run open complex --pairs 40 --json");
+    let mut reached = 0.0;
+    for (place, scenario) in ["open", "complex"].into_iter().enumerate() {
+        let alone = json(&bench, &format!("evaluate run {scenario} --pairs 40 --json"));
+        assert_eq!(both["scenarios"][place], alone);
+        reached += alone["reached"].as_f64().unwrap() / 2.0;
+    }
+    assert_eq!(both["drives"], 80);
+    assert!((both["reached"].as_f64().unwrap() - reached).abs() < 1e-12, "{both:#}");
+    let table = bench.say("evaluate run open complex --pairs 40").ends_in(0);
+    let row = |name: &str| {
+        let row = table.stdout.lines().find(|line| line.trim_start().starts_with(name));
+        row.unwrap_or_else(|| panic!("{}", table.stdout)).to_owned()
+    };
+    assert!(row("complex ").contains("    40  "), "{}", table.stdout);
+    assert!(row("all 2 ").contains(&format!("    80  {:.1} % (", 100.0 * reached)));
+    let refused = bench.say("evaluate run open complex --stress").ends_in(2);
+    assert!(refused.stderr.contains("--stress: found 2 scenarios, expected one"));
+}
+
+#[test]
 fn of_drivable_pairs_only_the_rest_is_left_out() {
     let bench = Bench::new();
     bench.train("open", "run", &["--set", "vehicle.steer_limit_deg=25"]).ends_in(0);

@@ -4,7 +4,10 @@ use crate::worlds::from_toml;
 use host_trainer::fitness;
 use host_trainer::pairs::PairSampler;
 use host_trainer::problem::{Problem, training_drive, validation_drive};
+use host_trainer::scenario::WorldSpec;
+use host_trainer::scenario::generate::Recipe;
 use host_trainer::seed::RunSeed;
+use host_trainer::signals::StopFlag;
 use host_trainer::training::{ResumeError, Snapshot, Training};
 use rayon::ThreadPoolBuilder;
 
@@ -75,6 +78,12 @@ fn stressed() -> String {
     CHANGING.replace("generations = 12", "generations = 4\n    stressed_share = 1")
 }
 
+/// The same in random worlds instead of the scenario's own.
+fn elsewhere() -> String {
+    let worlds = "[training.worlds]\nboxes = 2\nbarn_like = 1\nside_m = [6, 9]\n[training.ga]";
+    stressed().replace("mine = 0.5", "").replace("[training.ga]", worlds)
+}
+
 /// A search by novelty, which keeps an archive.
 const NOVEL: &str = "
     [world]
@@ -106,7 +115,7 @@ fn trained(problem: &Problem, threads: usize, generations: u32) -> Vec<u8> {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
-    for settings in [EXACT, NOISY, CHANGING, &stressed(), NOVEL] {
+    for settings in [EXACT, NOISY, CHANGING, &stressed(), &elsewhere(), NOVEL] {
         let problem = Problem::new(from_toml(settings)).unwrap();
         let alone = trained(&problem, 1, 3);
         for threads in [2, 7] {
@@ -242,6 +251,43 @@ fn drives_are_under_stress_from_the_second_generation_on() {
     let [calm, stressed] = ["", "stressed_share = 1"].map(first_rows);
     assert_eq!(calm[0], stressed[0]);
     assert_ne!(calm[1], stressed[1]);
+}
+
+/// The oracle drives each pair alone, in a world made by hand as the run says it made it.
+#[test]
+fn every_pair_is_driven_in_the_random_world_whose_turn_it_is() {
+    let problem = Problem::new(from_toml(&elsewhere())).unwrap();
+    let mut training = Training::new(&problem, RunSeed(5)).unwrap();
+    training.step().unwrap();
+    let best = training.best().unwrap();
+    let (pairs, drives) =
+        (training.pairs_of(best).unwrap(), training.drives_of(best, &StopFlag::default()));
+    let drives = drives.unwrap().unwrap();
+    let worlds: Vec<Recipe> = training.worlds().collect();
+    assert_eq!(worlds.len(), 3);
+    for (index, pair) in pairs.iter().enumerate() {
+        let mut scenario = problem.scenario.clone();
+        let made = worlds[index % worlds.len()].scenario().unwrap().world;
+        scenario.world = WorldSpec { target_radius: scenario.world.target_radius, ..made };
+        let there = Problem::new(scenario).unwrap();
+        assert!(!there.world.blocks_disc(pair.goal, there.world.target_radius), "pair {index}");
+        let random = |_| training_drive(RunSeed(5), best.generation, index as u32);
+        let mut brain = there.brain(&best.genome).unwrap();
+        assert_eq!(there.drive_all(&mut *brain, &[*pair], random), [drives[index]], "pair {index}");
+    }
+}
+
+#[test]
+fn random_worlds_are_those_of_the_seed_whatever_the_own_world_is() {
+    let best = |seed, own: &str| {
+        let settings = elsewhere().replace("[4, 4, 6, 6]", own);
+        let problem = Problem::new(from_toml(&settings)).unwrap();
+        let mut training = Training::new(&problem, RunSeed(seed)).unwrap();
+        training.step().unwrap();
+        (training.worlds().collect::<Vec<_>>(), training.best().cloned())
+    };
+    assert_eq!(best(5, "[4, 4, 6, 6]"), best(5, "[1, 2, 9, 3]"));
+    assert_ne!(best(5, "[4, 4, 6, 6]").0, best(6, "[4, 4, 6, 6]").0);
 }
 
 #[test]

@@ -8,9 +8,10 @@ use crate::evaluation::{self, Evaluation};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::problem::{Problem, evaluation_drive, training_drive};
-use crate::report::{data::Drive, page, plots};
+use crate::report::{data::Drive, page, plots, tasks_svg};
 use crate::run_folder::RunFolder;
-use crate::seed::RunSeed;
+use crate::scenario::Pair;
+use crate::seed::{RunSeed, Stream};
 use crate::signals::StopFlag;
 use crate::training::{Best, Training};
 use crate::{blob_file::BlobFile, picture};
@@ -19,7 +20,7 @@ use serde::Serialize;
 /// Unseen pairs that every training run is judged on at its end.
 const UNSEEN_PAIRS: u32 = 1000;
 
-/// Most training pairs whose drives are drawn.
+/// Most pairs whose drives are drawn.
 const DRAWN_PAIRS: usize = 20;
 
 /// How far [`finish`] got.
@@ -54,6 +55,54 @@ struct OnTrainingPairs {
     collisions: u64,
 }
 
+/// Which pairs' drives are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pairs {
+    /// Those of the champion's generation.
+    Training,
+    /// Those that it is judged on at its end.
+    Unseen,
+}
+
+/// The drives that the report shows.
+#[derive(Debug)]
+struct Films {
+    pairs: Pairs,
+    /// How many pairs there are.
+    of: usize,
+    drives: Vec<Drive>,
+}
+
+impl Films {
+    /// Those of the first pairs. Drive `i` gets the random numbers of `place(i)`.
+    fn of(
+        problem: &Problem,
+        best: &Best,
+        kind: Pairs,
+        pairs: &[Pair],
+        place: impl Fn(u32) -> Stream,
+    ) -> Self {
+        let drawn = &pairs[..pairs.len().min(DRAWN_PAIRS)];
+        let drives = picture::drives(problem, &best.genome, drawn, place);
+        Self { pairs: kind, of: pairs.len(), drives }
+    }
+
+    /// What the report says of them; nothing where it shows all training pairs.
+    fn note(&self) -> String {
+        let shown = self.drives.len() as u64;
+        match self.pairs {
+            Pairs::Training if self.drives.len() == self.of => String::new(),
+            Pairs::Training => format!(" The first {} are shown.", counted(shown, "training pair")),
+            Pairs::Unseen => format!(
+                " It was trained in random worlds, which lie in `{}`; shown are drives of the \
+                 first {} in this one.",
+                RunFolder::WORLDS,
+                counted(shown, "unseen pair")
+            ),
+        }
+    }
+}
+
 /// Writes everything that a finished run leaves behind, the report last.
 ///
 /// # Errors
@@ -76,29 +125,33 @@ pub(super) fn finish(
         .map_err(|error| Failure::bad_input(format!("the champion cannot be written: {error}")))?;
     folder.write(RunFolder::CHAMPION, &bytes)?;
 
-    let pairs = training.pairs_of(best)?;
-    let place = |drive| training_drive(seed, best.generation, drive);
     let unseen = problem
         .sampler()
         .unseen(seed, UNSEEN_PAIRS)
         .map_err(|error| Failure::bad_input(error.to_string()))?;
     let never_seen = |index| evaluation_drive(seed, index);
-    let (Some(trained), Some(unseen)) = (
-        evaluation::outcomes(problem, &best.genome, &pairs, place, stop),
+    let (Some(trained), Some(outcomes)) = (
+        training.drives_of(best, stop)?,
         evaluation::outcomes(problem, &best.genome, &unseen, never_seen, stop),
     ) else {
         return Ok(Finished::Stopped);
     };
-    let unseen = Evaluation::summary(&unseen, seed);
     let on_pairs = OnTrainingPairs {
         pairs: trained.len(),
         reached: trained.iter().filter(|outcome| outcome.reached).count(),
         clean: trained.iter().filter(|outcome| Outcome::clean(outcome)).count(),
         collisions: trained.iter().map(|outcome| u64::from(outcome.collisions)).sum(),
     };
-    let drawn = &pairs[..pairs.len().min(DRAWN_PAIRS)];
-    let drives = picture::drives(problem, &best.genome, drawn, place);
-    draw(folder, problem, seed, training, best, drives, &on_pairs, &unseen)?;
+    let films = if problem.scenario.training.worlds.is_some() {
+        // Its training pairs lie elsewhere.
+        Films::of(problem, best, Pairs::Unseen, &unseen, never_seen)
+    } else {
+        let place = |drive| training_drive(seed, best.generation, drive);
+        Films::of(problem, best, Pairs::Training, &training.pairs_of(best)?, place)
+    };
+    let unseen = Evaluation::summary(&outcomes, seed);
+    draw(folder, problem, seed, training, best, films, &on_pairs, &unseen)?;
+    draw_worlds(folder, training)?;
 
     let path = |name: &str| folder.join(name).display().to_string();
     let champion = BlobFile::read(&folder.join(RunFolder::CHAMPION))?;
@@ -149,7 +202,7 @@ fn draw(
     seed: RunSeed,
     training: &Training<'_>,
     best: &Best,
-    drives: Vec<Drive>,
+    films: Films,
     on_pairs: &OnTrainingPairs,
     unseen: &Evaluation,
 ) -> Result<(), Failure> {
@@ -160,18 +213,14 @@ fn draw(
     plot("fitness", &plots::fitness_svg(&history))?;
     plot("criteria", &plots::criteria_svg(&history))?;
     let (scene, body) = (picture::scene(problem), picture::body(problem));
-    for (number, drive) in (1..).zip(&drives) {
+    for (number, drive) in (1..).zip(&films.drives) {
         let title = format!("{}, pair {number}", problem.scenario.name);
         let svg = plots::trajectory_svg(&scene, &body, drive, &title);
         plot(&format!("trajectory-{number}"), &svg)?;
     }
-    let shown = if drives.len() < on_pairs.pairs {
-        format!(" The first {} are shown.", counted(drives.len() as u64, "training pair"))
-    } else {
-        String::new()
-    };
+    let note = films.note();
     let summary = format!(
-        "After {} the champion reaches {} of {}.{shown} Of {} pairs it has never seen it \
+        "After {} the champion reaches {} of {}.{note} Of {} pairs it has never seen it \
          reaches {}, and {} without touching anything.",
         counted(training.generation(), "generation"),
         on_pairs.reached,
@@ -189,6 +238,19 @@ fn draw(
         ("fitness of the champion".to_owned(), format!("{:.1}", best.cost.value())),
     ];
     let title = format!("{}, seed {seed}", problem.scenario.name);
-    let data = picture::report(problem, title, summary, drives, history, provenance);
+    let data = picture::report(problem, title, summary, films.drives, history, provenance);
     folder.write(RunFolder::REPORT, page::render(&data).as_bytes())
+}
+
+/// The worlds that the run made for itself, as scenarios to drive in and as pictures.
+fn draw_worlds(folder: &RunFolder, training: &Training<'_>) -> Result<(), Failure> {
+    for recipe in training.worlds() {
+        let problem = Problem::new(recipe.scenario()?)?;
+        let svg = tasks_svg(&picture::scene(&problem), &picture::body(&problem), &[]);
+        let name = &problem.scenario.name;
+        for (ending, text) in [("toml", recipe.toml()?), ("svg", svg)] {
+            folder.write(&format!("{}/{name}.{ending}", RunFolder::WORLDS), text.as_bytes())?;
+        }
+    }
+    Ok(())
 }
