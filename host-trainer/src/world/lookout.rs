@@ -15,7 +15,7 @@
 //! | `beams` | the tests, many beams side by side |
 //! | `shelf` | what is found once for each cell |
 //! | `words`, `asked` | how it is kept in few bytes, and read for many beams at once |
-//! | `cell`, `candidate`, `cone`, `reach`, `rounding` | how it is found, and what may be left out |
+//! | `cell`, `candidate`, `cone`, `shade`, `reach`, `rounding` | how it is found, and what may be left out |
 
 mod asked;
 mod beams;
@@ -26,6 +26,7 @@ mod fan;
 mod grid;
 mod reach;
 mod rounding;
+mod shade;
 mod shelf;
 mod words;
 

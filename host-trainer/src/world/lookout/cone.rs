@@ -17,12 +17,24 @@ const LONGEST: usize = 24;
 /// Beams that start in a cell and point in the directions of an arc.
 pub(super) struct Cone<'a> {
     arc: &'a Arc,
-    limits: &'a Limits,
-    corners: [Point; 4],
+    pub(super) limits: &'a Limits,
+    pub(super) corners: [Point; 4],
     /// For each edge of the arc: the least and the most of `edge × corner`.
     aside: [[f64; 2]; 2],
     /// For each edge of the arc: the most of `edge · corner`.
     ahead: [f64; 2],
+}
+
+/// Walls that meet end to end, by their places among the candidates.
+struct Chain {
+    walls: [usize; LONGEST],
+    count: usize,
+}
+
+impl Chain {
+    fn walls(&self) -> &[usize] {
+        &self.walls[..self.count]
+    }
 }
 
 impl<'a> Cone<'a> {
@@ -37,11 +49,12 @@ impl<'a> Cone<'a> {
     }
 
     /// Keeps those of the candidates that the beams can meet first. They are all that the beams
-    /// can meet, the nearest first. Returns whether any was left out because of walls that meet.
-    pub(super) fn keep_in_sight(&self, met: &mut Vec<&Candidate>) -> bool {
+    /// can meet, the nearest first. Returns the places in the world of the walls that meet, if any
+    /// was left out because of such.
+    pub(super) fn keep_in_sight(&self, met: &mut Vec<&Candidate>) -> Vec<u32> {
         let all = met.len();
         let mut nearest = f64::INFINITY;
-        let mut is_chain = false;
+        let mut chain = Chain { walls: [0; LONGEST], count: 0 };
         let mut walked = vec![false; all];
         for seed in 0..met.len() {
             if met[seed].distance > nearest {
@@ -54,24 +67,27 @@ impl<'a> Cone<'a> {
             if let Some((behind, walls)) = self.behind(met, seed, &mut walked)
                 && behind < nearest
             {
-                (nearest, is_chain) = (behind, walls > 1);
+                (nearest, chain) = (behind, walls);
             }
         }
+        let joined = match chain.walls() {
+            [] | [_] => Vec::new(),
+            walls => walls.iter().map(|wall| met[*wall].id).collect(),
+        };
         met.retain(|candidate| {
             let (distance, error) = self.least_distance(candidate);
             distance - error <= nearest + 4.0 * self.limits.slack
         });
-        is_chain && met.len() < all
+        if met.len() < all { joined } else { Vec::new() }
     }
 
-    /// How far a beam goes at most that crosses the chain through the seed, if all do, and how
-    /// many walls that has.
-    fn behind(&self, met: &[&Candidate], seed: usize, walked: &mut [bool]) -> Option<(f64, usize)> {
+    /// How far a beam goes at most that crosses the chain through the seed, if all do, and that
+    /// chain.
+    fn behind(&self, met: &[&Candidate], seed: usize, walked: &mut [bool]) -> Option<(f64, Chain)> {
         if !met[seed].shape.is_wall() {
             return None;
         }
-        let mut chain = [seed; LONGEST];
-        let mut count = 1;
+        let mut chain = Chain { walls: [seed; LONGEST], count: 1 };
         let mut farthest = 0.0_f64;
         let mut sides = [0.0; 2];
         for (first_end, side) in sides.iter_mut().enumerate() {
@@ -82,49 +98,50 @@ impl<'a> Cone<'a> {
                 if *side != 0.0 {
                     break;
                 }
-                let (next, entry) = self.next(met, &chain[..count], wall, end)?;
+                let fits = |next: usize| !chain.walls().contains(&next);
+                let (next, entry) = self.next(met, point, fits)?;
                 farthest = farthest.max(self.farthest(point));
-                *chain.get_mut(count)? = next;
+                *chain.walls.get_mut(chain.count)? = next;
+                chain.count += 1;
                 walked[next] = true;
-                count += 1;
                 (wall, end) = (next, 1 - entry);
             }
         }
         if sides[0] == sides[1] {
             return None;
         }
-        for wall in &chain[..count] {
+        for wall in chain.walls() {
             let candidate = met[*wall];
             if !self.is_crossed_ahead(candidate) {
                 return None;
             }
             farthest = farthest.max(self.outermost(candidate) + self.error(candidate));
         }
-        Some((farthest + self.limits.slack, count))
+        Some((farthest + self.limits.slack, chain))
     }
 
-    /// A wall that goes on from another's end, and which of its ends that is.
-    fn next(
+    /// A wall that fits and goes on from another's end, and which of its ends that is.
+    pub(super) fn next(
         &self,
         met: &[&Candidate],
-        chain: &[usize],
-        wall: usize,
-        end: usize,
+        joint: Point,
+        fits: impl Fn(usize) -> bool,
     ) -> Option<(usize, usize)> {
-        let joint = met[wall].shape.ends[end];
-        let near = |point: Point| {
-            let [dx, dy] = minus(point, joint);
-            dx.abs() + dy.abs() <= self.limits.joint
-        };
         met.iter().enumerate().find_map(|(next, candidate)| {
-            let entry = candidate.shape.ends.iter().position(|end| near(*end))?;
-            let fits = candidate.shape.is_wall() && !chain.contains(&next);
-            fits.then_some((next, entry))
+            let mut ends = candidate.shape.ends.iter();
+            let entry = ends.position(|end| self.is_joint(*end, joint))?;
+            (candidate.shape.is_wall() && fits(next)).then_some((next, entry))
         })
     }
 
+    /// Whether walls meet that have these ends.
+    pub(super) fn is_joint(&self, a: Point, b: Point) -> bool {
+        let [dx, dy] = minus(a, b);
+        dx.abs() + dy.abs() <= self.limits.joint
+    }
+
     /// Whether no beam's line crosses the wall behind the beam's start.
-    fn is_crossed_ahead(&self, candidate: &Candidate) -> bool {
+    pub(super) fn is_crossed_ahead(&self, candidate: &Candidate) -> bool {
         let slack = self.limits.slack;
         if self.slowest(candidate) > 0.0 {
             // All beams go to the same side of the wall's line; is it before all of them?
@@ -141,7 +158,7 @@ impl<'a> Cone<'a> {
 
     /// On which side of all beams' lines a point lies, with the slack to spare: 1 left, -1
     /// right; 0 if on neither.
-    fn side(&self, point: Point) -> f64 {
+    pub(super) fn side(&self, point: Point) -> f64 {
         let spare = 1.5 * self.limits.slack;
         let edges = || self.arc.edges.into_iter().zip(self.aside);
         if edges().all(|(edge, [_, most])| cross(edge, point) - most > spare) {
@@ -154,7 +171,7 @@ impl<'a> Cone<'a> {
     }
 
     /// From a point to the cell's farthest one.
-    fn farthest(&self, point: Point) -> f64 {
+    pub(super) fn farthest(&self, point: Point) -> f64 {
         most(self.corners.map(|corner| length(minus(point, corner))))
     }
 
@@ -185,7 +202,7 @@ impl<'a> Cone<'a> {
 
     /// How fast, of all beams, the slowest approaches the wall's line; 0 unless all go to the same
     /// side of it.
-    fn slowest(&self, candidate: &Candidate) -> f64 {
+    pub(super) fn slowest(&self, candidate: &Candidate) -> f64 {
         let [right, left] = self.arc.edges.map(|edge| dot(candidate.normal, edge));
         let sign = right.signum();
         (right * sign).min(left * sign).max(0.0)
