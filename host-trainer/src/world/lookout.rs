@@ -81,8 +81,8 @@ impl Lookout {
         live: &[u32; N],
     ) -> [[V; BEAMS]; N] {
         const { assert!(Q == N * BEAMS) };
-        // First everything that is to be loaded, then everything that is to be computed: so the
-        // CPU never waits for the one to begin the other.
+        // First where everything lies that is to be loaded, then loading it, then everything that is
+        // to be computed: so the CPU never waits for the one to begin the other.
         let mut asked = Asked::<Q>::new();
         let mut bins = [[V::from(0.0); BEAMS]; N];
         let mut beams = [[Beams::new(rays[0][0]); BEAMS]; N];
@@ -94,10 +94,15 @@ impl Lookout {
                 }
                 let bin = part_of_turn::<V, BINS>(fan.angle(beam, &poses[car]));
                 self.shelf.ask_seen(&mut asked, car * BEAMS + beam, shelves, bin);
+                // What the beams between them ask for mostly lies in the same lines of the cache.
+                if beam % 2 == 0 {
+                    self.shelf.fetch_seen::<V, Q>(&asked, car * BEAMS + beam);
+                }
                 bins[car][beam] = bin;
                 beams[car][beam] = Beams::new(rays[car][beam]);
             }
         }
+        self.shelf.answer_seen::<V, Q>(&mut asked);
         let all = beams.as_flattened_mut();
         for round in 0..Asked::<Q>::ROUNDS {
             for index in asked.with_name(round) {
@@ -141,6 +146,7 @@ impl Lookout {
             sectors[car] = part_of_turn::<V, SECTORS>(poses[car].heading);
             self.shelf.ask_near(&mut asked, car, shelves, sectors[car]);
         }
+        self.shelf.answer_near::<V, N>(&mut asked);
         let Body { rear, front, half_width } = self.body;
         let body =
             Body { rear: V::from(rear), front: V::from(front), half_width: V::from(half_width) };
