@@ -39,6 +39,7 @@ use controller_core::geometry::{Body, Disc, Ray, Segment};
 use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
 use grid::{Grid, part_of_turn};
+use rounding::MOST_ERROR;
 use shelf::{Question, Shelf};
 use std::sync::Arc;
 
@@ -195,12 +196,16 @@ impl Lookout {
         let sure = self.shelf.each(&self.grid, &self.obstacles, cell, question, |row| {
             beams.any(*row);
         });
-        if let Some(joint) = sure
-            && !(joint && beams.doubtful(self.slack))
-        {
-            return beams.nearest(self.range);
+        let mut reach = self.range;
+        if let Some(joint) = sure {
+            let nearest = beams.nearest(self.range);
+            if !(joint && beams.doubtful(self.slack)) {
+                return nearest;
+            }
+            // What was left out and is computed as nearer is met before this.
+            reach = reach.min(nearest + 2.0 * MOST_ERROR as f32);
         }
-        let distance = self.obstacles.distance(ray, self.range);
+        let distance = self.obstacles.distance(ray, reach).min(beams.nearest(self.range));
         if distance <= self.range { distance } else { f32::INFINITY }
     }
 

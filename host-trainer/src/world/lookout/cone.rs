@@ -8,7 +8,7 @@
 
 use super::candidate::Candidate;
 use super::grid::Arc;
-use super::rounding::Limits;
+use super::rounding::{Limits, MOST_ERROR};
 use crate::world::shape::{Point, Rect, cross, dot, length, minus};
 
 /// Longest chain of walls looked for.
@@ -76,7 +76,7 @@ impl<'a> Cone<'a> {
         };
         met.retain(|candidate| {
             let (distance, error) = self.least_distance(candidate);
-            distance - error <= nearest + 4.0 * self.limits.slack
+            error > MOST_ERROR || distance - error <= nearest + 4.0 * self.limits.slack
         });
         if met.len() < all { joined } else { Vec::new() }
     }

@@ -11,6 +11,7 @@
 
 use super::candidate::Candidate;
 use super::cone::Cone;
+use super::rounding::MOST_ERROR;
 use crate::world::shape::{Point, cross, dot, minus};
 
 /// Most walls looked at; places are bits of a word.
@@ -54,7 +55,7 @@ impl Cone<'_> {
         let by_angle = candidate.rounding.ahead / self.slowest(candidate);
         let error = candidate.rounding.distance.min(by_angle);
         // Where rounding can bring it before the car, or it runs along a beam, nothing is sure.
-        if !candidate.shape.is_wall() || !(error < candidate.distance) {
+        if !candidate.shape.is_wall() || error >= candidate.distance.min(MOST_ERROR) {
             return None;
         }
         let is_before = |place: usize| {
