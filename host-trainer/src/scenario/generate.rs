@@ -69,6 +69,20 @@ impl Kind {
         }
     }
 
+    /// The density at which a world of this many square metres has about 240 walls or discs: beyond,
+    /// beams take several times as long.
+    fn quick_density(self, area: f32) -> f32 {
+        match self {
+            // Of 1.5 m² and four walls each.
+            Self::Boxes => 90.0 / area,
+            // Of 0.33 m² each.
+            Self::Pillars => 80.0 / area,
+            // Eight walls for each room of (0.2 m / density)².
+            Self::Rooms => (1.2 / area).sqrt(),
+            Self::BarnLike => 1.0,
+        }
+    }
+
     /// Lowest and highest density.
     pub fn densities(self) -> [f32; 2] {
         match self {
@@ -155,7 +169,7 @@ impl Recipe {
     pub const LONGEST_BARN: f32 = 20.0;
 
     /// A world of this kind with sides in this range, metres. Its density is from a quarter of the
-    /// usual one to half as much again.
+    /// usual one to half as much again, or so much that beams find its obstacles quickly.
     pub fn drawn(
         kind: Kind,
         [shortest, longest]: [f32; 2],
@@ -166,7 +180,9 @@ impl Recipe {
         let size = [(); 2].map(|()| round(random.within(shortest.min(longest), longest)));
         let [low, high] = kind.densities();
         let usual = kind.usual_density();
-        let density = random.within(low.max(usual * 0.25), high.min(usual * 1.5));
+        let low = low.max(usual * 0.25);
+        let high = high.min(usual * 1.5).min(kind.quick_density(size[0] * size[1]));
+        let density = random.within(low, high.max(low));
         // As short as somebody would type them, to see the world.
         let density = (density * 100.0).round() / 100.0;
         Self { kind, seed: RunSeed(random.index(1 << 32) as u64), size, density }

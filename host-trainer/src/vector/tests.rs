@@ -1,6 +1,6 @@
 //! Every width against plain `f32`, as bits, over numbers that break shortcuts.
 
-use super::{Instructions, Kernel, RowOfLane, Slots, Vector};
+use super::{ByName, Instructions, Kernel, MOST_LANES, RowOfLane, Slots, Table, Vector};
 use crate::seed::{Purpose, RunSeed};
 use controller_core::lane::Lane;
 
@@ -139,6 +139,48 @@ impl Kernel for Fetch {
 fn every_lane_gets_its_own_row_and_whole_number() {
     for set in Instructions::available() {
         set.run(Fetch);
+    }
+}
+
+/// Rows by name: row `n` holds `4n`, `4n + 1`, `4n + 2` and `4n + 3`, those past the last one what
+/// row 0 holds.
+struct Named(usize);
+
+impl Kernel for Named {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let row = |name: usize| {
+            let row = if name < self.0 { name } else { 0 };
+            std::array::from_fn(|column| (4 * row + column) as f32)
+        };
+        let rows: Vec<[f32; 4]> = (0..self.0).map(row).collect();
+        let table = Table::new(&rows);
+        // Every name that there is a row for, in every lane and byte, beside other names.
+        let most = self.0.min(256);
+        for name in 0..most {
+            let of = |lane: usize, byte: usize| (name + 3 * lane + 7 * byte) % most;
+            let words: [u64; MOST_LANES] = std::array::from_fn(|lane| {
+                u64::from_le_bytes(std::array::from_fn(|byte| of(lane, byte) as u8))
+            });
+            for byte in 0..8 {
+                let columns = V::named(ByName { table: &table, words: &words, byte });
+                for (column, numbers) in columns.iter().enumerate() {
+                    let expected = (0..V::WIDTH).map(|lane| row(of(lane, byte))[column]);
+                    assert!(numbers.lanes().iter().copied().eq(expected), "{name} of {}", self.0);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_byte_of_a_word_names_its_row_in_tables_of_any_size() {
+    for set in Instructions::available() {
+        for rows in [1, 2, 16, 17, 33, 37, 64, 65, 255, 256] {
+            set.run(Named(rows));
+        }
     }
 }
 

@@ -7,7 +7,8 @@
 //! be made from a bare `f32`.)
 #![allow(unsafe_code)]
 
-use super::{Instructions, Kernel, MOST_LANES, Part, RowOfLane, Vector, Whole, each};
+use super::table::Columns;
+use super::{ByName, Instructions, Kernel, MOST_LANES, Part, RowOfLane, Vector, Whole, each};
 use bytemuck::{Pod, Zeroable};
 use controller_core::lane::Lane;
 use core::arch::x86_64::*;
@@ -40,6 +41,13 @@ pub(super) fn has_avx512() -> bool {
         && is_x86_feature_detected!("avx512dq")
         && is_x86_feature_detected!("avx512vl")
         && is_x86_feature_detected!("avx512bw")
+}
+
+/// Fetches what lies here into the first cache.
+#[inline(always)]
+pub(super) fn fetch<T>(at: *const T) {
+    // SAFETY: every x86-64 has SSE; a fetch never faults, wherever it points.
+    unsafe { _mm_prefetch::<_MM_HINT_T0>(at.cast()) }
 }
 
 /// Runs the kernel with these instructions, which this CPU has.
@@ -385,6 +393,37 @@ impl Vector for Wide16 {
         }
         let [a, b, c, d] = four;
         turned!(Self, _mm512_unpacklo_ps, _mm512_unpackhi_ps, _mm512_shuffle_ps, [a, b, c, d])
+    }
+
+    /// Takes few rows from registers: two of them are a table of 32 numbers.
+    #[inline(always)]
+    fn named(rows: ByName<'_>) -> [Self; 4] {
+        let Some(Columns(columns)) = rows.table.columns() else { return Self::rows(rows) };
+        // SAFETY: this type is only named where the CPU has its instructions; the words are eight
+        // and eight.
+        let (names, is_past) = unsafe {
+            let shift = _mm_cvtsi64_si128(rows.byte as i64 * 8);
+            let words = rows.words.as_ptr();
+            let low = _mm512_srl_epi64(_mm512_loadu_si512(words.cast()), shift);
+            let high = _mm512_srl_epi64(_mm512_loadu_si512(words.add(8).cast()), shift);
+            let low = _mm512_castsi256_si512(_mm512_cvtepi64_epi32(low));
+            let names = _mm512_inserti64x4::<1>(low, _mm512_cvtepi64_epi32(high));
+            (names, _mm512_test_epi32_mask(names, _mm512_set1_epi32(32)))
+        };
+        let mut four = [Self::from(0.0); 4];
+        for (four, column) in four.iter_mut().zip(columns) {
+            // SAFETY: this type is only named where the CPU has its instructions; a column has four
+            // times sixteen numbers, and of each name only as many bits count as it has.
+            four.0 = unsafe {
+                let at = column.as_ptr();
+                let (a, b) = (_mm512_loadu_ps(at), _mm512_loadu_ps(at.add(16)));
+                let (c, d) = (_mm512_loadu_ps(at.add(32)), _mm512_loadu_ps(at.add(48)));
+                let near = _mm512_permutex2var_ps(a, names, b);
+                let past = _mm512_permutex2var_ps(c, names, d);
+                _mm512_mask_blend_ps(is_past, near, past)
+            };
+        }
+        four
     }
 
     #[inline(always)]

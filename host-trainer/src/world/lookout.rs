@@ -15,17 +15,19 @@
 //! | `beams` | the tests, many beams side by side |
 //! | `shelf` | what is found once for each cell |
 //! | `words`, `asked` | how it is kept in few bytes, and read for many beams at once |
-//! | `cell`, `candidate`, `cone`, `reach`, `rounding` | how it is found, and what may be left out |
+//! | `cell`, `candidate`, `cone`, `discs`, `shade`, `reach`, `rounding` | how it is found, and what may be left out |
 
 mod asked;
 mod beams;
 mod candidate;
 mod cell;
 mod cone;
+mod discs;
 mod fan;
 mod grid;
 mod reach;
 mod rounding;
+mod shade;
 mod shelf;
 mod words;
 
@@ -38,6 +40,7 @@ use controller_core::geometry::{Body, Disc, Ray, Segment};
 use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
 use grid::{Grid, part_of_turn};
+use rounding::MOST_ERROR;
 use shelf::{Question, Shelf};
 use std::sync::Arc;
 
@@ -80,8 +83,8 @@ impl Lookout {
         live: &[u32; N],
     ) -> [[V; BEAMS]; N] {
         const { assert!(Q == N * BEAMS) };
-        // First everything that is to be loaded, then everything that is to be computed: so the
-        // CPU never waits for the one to begin the other.
+        // First where everything lies that is to be loaded, then loading it, then everything that is
+        // to be computed: so the CPU never waits for the one to begin the other.
         let mut asked = Asked::<Q>::new();
         let mut bins = [[V::from(0.0); BEAMS]; N];
         let mut beams = [[Beams::new(rays[0][0]); BEAMS]; N];
@@ -93,10 +96,15 @@ impl Lookout {
                 }
                 let bin = part_of_turn::<V, BINS>(fan.angle(beam, &poses[car]));
                 self.shelf.ask_seen(&mut asked, car * BEAMS + beam, shelves, bin);
+                // What the beams between them ask for mostly lies in the same lines of the cache.
+                if beam % 2 == 0 {
+                    self.shelf.fetch_seen::<V, Q>(&asked, car * BEAMS + beam);
+                }
                 bins[car][beam] = bin;
                 beams[car][beam] = Beams::new(rays[car][beam]);
             }
         }
+        self.shelf.answer_seen::<V, Q>(&mut asked);
         let all = beams.as_flattened_mut();
         for round in 0..Asked::<Q>::ROUNDS {
             for index in asked.with_name(round) {
@@ -140,6 +148,7 @@ impl Lookout {
             sectors[car] = part_of_turn::<V, SECTORS>(poses[car].heading);
             self.shelf.ask_near(&mut asked, car, shelves, sectors[car]);
         }
+        self.shelf.answer_near::<V, N>(&mut asked);
         let Body { rear, front, half_width } = self.body;
         let body =
             Body { rear: V::from(rear), front: V::from(front), half_width: V::from(half_width) };
@@ -188,12 +197,16 @@ impl Lookout {
         let sure = self.shelf.each(&self.grid, &self.obstacles, cell, question, |row| {
             beams.any(*row);
         });
-        if let Some(joint) = sure
-            && !(joint && beams.doubtful(self.slack))
-        {
-            return beams.nearest(self.range);
+        let mut reach = self.range;
+        if let Some(joint) = sure {
+            let nearest = beams.nearest(self.range);
+            if !(joint && beams.doubtful(self.slack)) {
+                return nearest;
+            }
+            // What was left out and is computed as nearer is met before this.
+            reach = reach.min(nearest + 2.0 * MOST_ERROR as f32);
         }
-        let distance = self.obstacles.distance(ray, self.range);
+        let distance = self.obstacles.distance(ray, reach).min(beams.nearest(self.range));
         if distance <= self.range { distance } else { f32::INFINITY }
     }
 

@@ -395,6 +395,25 @@ fn a_wall_exactly_at_the_range_is_seen_from_anywhere_in_a_cell() {
     }
 }
 
+/// Past the corner of a box some beams meet its near side and others the room's wall; none is left
+/// for the far side that begins at that corner.
+#[test]
+fn of_a_box_only_the_near_sides_are_tested() {
+    let square = |low: f32, high: f32| {
+        let corners = [(low, low), (high, low), (high, high), (low, high)];
+        [0, 1, 2, 3].map(|side| Segment { a: corners[side], b: corners[(side + 1) % 4] })
+    };
+    let walls = [square(0.0, 9.0), square(4.0, 5.0)].concat();
+    let mut pair = Pair::new(walls, Vec::new(), Fan::new(&mounts(USUAL), 20.0), BODY);
+    for (x, y) in [(2.0, 1.2), (4.4, 2.0), (7.5, 6.1)] {
+        for heading in 0..720 {
+            pair.compare(&Pose::new(x, y, 0.008_726_6 * (heading - 360) as f32));
+        }
+    }
+    let survey = pair.lookout.survey();
+    assert_eq!((survey.cells, survey.seen.last()), (3, Some(&2)));
+}
+
 /// A beam that runs along a wall meets it, by rounding, at any distance: before the wall that
 /// hides it, too. Strange, but what the arithmetic says.
 #[test]

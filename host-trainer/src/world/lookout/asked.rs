@@ -1,21 +1,21 @@
 //! Many questions at once, and the words that answer them.
 
 use super::beams::Row;
-use super::words::{ALL, JOINT, NAME, NAMES, Word, Words};
-use crate::vector::{MOST_LANES, RowOfLane, Vector, ones};
+use super::words::{AllWords, JOINT, NAME, NAMES, UNKNOWN, Word};
+use crate::vector::{MOST_LANES, RowOfLane, Vector, fetch, ones};
 use std::sync::atomic::{AtomicU16, AtomicU32, Ordering};
 
 /// Questions of `N` times several robots, and the words that answer them.
 ///
 /// Everything is written in place: a copy would have to wait for what has just been written.
 pub(super) struct Asked<const N: usize> {
+    /// Where the words' numbers are.
+    places: [[u32; MOST_LANES]; N],
     words: [[Word; MOST_LANES]; N],
     /// The shelves that were asked, in a large world.
     shelves: [[u32; MOST_LANES]; N],
     /// What is set in any lane's word.
     any: [Word; N],
-    /// What is set in all of them.
-    all: [Word; N],
 }
 
 impl<const N: usize> Asked<N> {
@@ -27,36 +27,49 @@ impl<const N: usize> Asked<N> {
     pub(super) fn new() -> Self {
         const { assert!(N <= u32::BITS as usize) };
         Self {
+            places: [[0; MOST_LANES]; N],
             words: [[0; MOST_LANES]; N],
             shelves: [[0; MOST_LANES]; N],
             any: [0; N],
-            all: [Word::MAX; N],
         }
     }
 
-    /// Writes down the words of one question, whose numbers are at these places, and the shelves in
-    /// a large world.
+    /// Writes down where the numbers of a question's words are, and the shelves in a large world.
     #[inline(always)]
-    pub(super) fn write<V: Vector>(
+    pub(super) fn ask<V: Vector>(
         &mut self,
         question: usize,
-        words: &Words,
-        numbers: &[AtomicU16],
-        at: &[u32; MOST_LANES],
+        places: V,
         shelves: Option<[u32; MOST_LANES]>,
     ) {
         if let Some(shelves) = shelves {
             self.shelves[question] = shelves;
         }
-        let slots = &mut self.words[question];
-        let (mut any, mut all) = (0, Word::MAX);
-        for lane in 0..V::WIDTH {
-            let word = words.of(&numbers[at[lane] as usize]);
-            slots[lane] = word;
-            any |= word;
-            all &= word;
+        self.places[question] = places.places();
+    }
+
+    /// Has a question's numbers fetched. Those of all robots together take as long to come as those
+    /// of one.
+    #[inline(always)]
+    pub(super) fn fetch<V: Vector>(&self, question: usize, numbers: &[AtomicU16]) {
+        for place in &self.places[question][..V::WIDTH] {
+            fetch(numbers, *place as usize);
         }
-        (self.any[question], self.all[question]) = (any, all);
+    }
+
+    /// Writes down the words of all questions.
+    #[inline(always)]
+    pub(super) fn answer<V: Vector>(&mut self, numbers: &[AtomicU16], words: AllWords<'_>) {
+        for question in 0..N {
+            let (places, slots) = (&self.places[question], &mut self.words[question]);
+            let mut any = 0;
+            for lane in 0..V::WIDTH {
+                let word = words.of(&numbers[places[lane] as usize]);
+                slots[lane] = word;
+                any |= word;
+            }
+            self.any[question] = any;
+        }
     }
 
     /// The words of one question.
@@ -82,42 +95,26 @@ impl<const N: usize> Asked<N> {
         ones(questions)
     }
 
-    /// Lanes whose word does not have it all, as bits.
+    /// Lanes whose word does not say everything, as bits.
     #[inline(always)]
     pub(super) fn unknown<V: Vector>(&self, question: usize) -> u32 {
-        if self.all[question] & ALL != 0 { 0 } else { self.without::<V>(question, ALL) }
+        if self.any[question] & UNKNOWN == 0 { 0 } else { self.with::<V>(question, UNKNOWN) }
     }
 
     /// Those and the lanes whose word relies on walls that meet.
     #[inline(always)]
     pub(super) fn unsure<V: Vector>(&self, question: usize) -> u32 {
-        self.without::<V>(question, ALL) | !self.without::<V>(question, JOINT)
+        self.with::<V>(question, UNKNOWN | JOINT)
     }
 
     #[cold]
     #[inline(never)]
-    fn without<V: Vector>(&self, question: usize, flag: Word) -> u32 {
+    fn with<V: Vector>(&self, question: usize, flags: Word) -> u32 {
         let mut lanes = 0;
         for (lane, word) in self.words[question][..V::WIDTH].iter().enumerate() {
-            lanes |= u32::from(*word & flag == 0) << lane;
+            lanes |= u32::from(*word & flags != 0) << lane;
         }
         lanes
-    }
-}
-
-/// Rows of a small world.
-pub(super) struct ByName<'a> {
-    pub(super) table: &'a [Row; 1 << NAME],
-    pub(super) words: &'a [Word; MOST_LANES],
-    pub(super) round: usize,
-}
-
-impl RowOfLane for ByName<'_> {
-    #[inline(always)]
-    fn row(&self, lane: usize) -> &Row {
-        // Little-endian, as controller-core demands: the first name is the first byte.
-        let words: &[u8] = bytemuck::must_cast_slice(self.words);
-        &self.table[usize::from(words[lane * 8 + self.round])]
     }
 }
 

@@ -77,11 +77,9 @@ impl<V: Vector> Beams<V> {
     pub(super) fn any(&mut self, row: [V; 4]) {
         let is_disc = are_discs(&row);
         let (distance, inside) = self.wall_ahead(row);
-        let disc = Disc { centre: (row[0], row[1]), radius: row[2] };
-        let distance = V::select(is_disc, self.ray.to_disc(&disc), distance);
-        let (dx, dy) = self.ray.direction;
-        let aside = (row[0] - self.ray.origin.0) * dy - (row[1] - self.ray.origin.1) * dx;
-        let inside = V::select(is_disc, aside.abs() - disc.radius, inside);
+        let (to_disc, inside_disc) = self.disc_ahead(row);
+        let distance = V::select(is_disc, to_disc, distance);
+        let inside = V::select(is_disc, inside_disc, inside);
         self.near = distance.min(self.near);
         self.past = inside.abs().min(self.past);
     }
@@ -104,6 +102,15 @@ impl<V: Vector> Beams<V> {
         let inside = (den_size - along).min(along);
         let hit = zero.le(ahead.min(inside));
         (V::select(hit, ahead / den_size, V::from(f32::INFINITY)), inside)
+    }
+
+    /// The same of a disc's edge.
+    #[inline(always)]
+    fn disc_ahead(&self, [x, y, radius, _]: [V; 4]) -> (V, V) {
+        let (dx, dy) = self.ray.direction;
+        let aside = (x - self.ray.origin.0) * dy - (y - self.ray.origin.1) * dx;
+        let disc = Disc { centre: (x, y), radius };
+        (self.ray.to_disc(&disc), radius - aside.abs())
     }
 
     /// Distance to the nearest obstacle, metres; infinity where there is none within the range.

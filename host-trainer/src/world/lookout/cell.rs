@@ -1,6 +1,6 @@
 //! What beams from one cell can meet in each direction, and what a body there can touch.
 
-use super::candidate::{self, Candidate};
+use super::candidate;
 use super::cone::Cone;
 use super::grid::Arc;
 use super::reach::Reach;
@@ -48,20 +48,26 @@ impl Surroundings {
             let all = Arc::around(few);
             around.clear();
             around.extend(candidates.iter().filter(|candidate| candidate.is_met(&all)));
-            let joint_of_all = self.keep_in_sight(cell, &all, &mut around);
+            let joined_in_all = match around.len() {
+                0 | 1 => Vec::new(),
+                _ => Cone::new(cell, &all, &self.limits).keep_in_sight(&mut around),
+            };
             for (bin, arc) in (first..).zip(few) {
                 met.clear();
                 met.extend(around.iter().filter(|candidate| candidate.is_met(arc)));
-                let joint = self.keep_in_sight(cell, arc, &mut met);
+                let mut joint = !joined_in_all.is_empty();
+                if met.len() > 1 {
+                    let cone = Cone::new(cell, arc, &self.limits);
+                    let joined = cone.keep_in_sight(&mut met);
+                    let is_joined = |id| joined.contains(&id) || joined_in_all.contains(&id);
+                    let any_in_shade = cone.leave_out_shaded(&mut met, is_joined);
+                    joint |= !joined.is_empty() || any_in_shade;
+                }
                 places.clear();
                 places.extend(met.iter().map(|candidate| candidate.id));
-                f(bin, &places, joint || joint_of_all);
+                f(bin, &places, joint);
             }
         }
-    }
-
-    fn keep_in_sight(&self, cell: &Rect, arc: &Arc, met: &mut Vec<&Candidate>) -> bool {
-        met.len() > 1 && Cone::new(cell, arc, &self.limits).keep_in_sight(met)
     }
 
     /// Calls `f` for each sector with the places of the obstacles that the body may touch.

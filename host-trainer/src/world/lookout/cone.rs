@@ -5,44 +5,35 @@
 //! rounding computes near an end of a wall is another matter: a beam that passes any listed
 //! wall's end within [`Limits::slack`] gets its answer from all obstacles instead. A beam that
 //! does not is sure to meet the chain, no later than at its farthest point.
-//!
-//! Discs that touch hide the same way: the line through their middles lies inside of them, from
-//! beyond one side of all beams to beyond the other. There it is the beams that graze a listed
-//! disc within the slack that are answered from all obstacles: one may slip between two.
 
 use super::candidate::Candidate;
 use super::grid::Arc;
-use super::rounding::Limits;
-use crate::world::shape::{Point, Rect, Shape, cross, dot, length, minus};
+use super::rounding::{Limits, MOST_ERROR};
+use crate::world::shape::{Point, Rect, cross, dot, length, minus};
 
 /// Longest chain of walls looked for.
 const LONGEST: usize = 24;
 
 /// Beams that start in a cell and point in the directions of an arc.
 pub(super) struct Cone<'a> {
-    arc: &'a Arc,
-    limits: &'a Limits,
-    corners: [Point; 4],
+    pub(super) arc: &'a Arc,
+    pub(super) limits: &'a Limits,
+    pub(super) corners: [Point; 4],
     /// For each edge of the arc: the least and the most of `edge × corner`.
     aside: [[f64; 2]; 2],
     /// For each edge of the arc: the most of `edge · corner`.
     ahead: [f64; 2],
 }
 
-/// Discs that touch.
-struct Group {
-    discs: Vec<usize>,
-    /// How far a beam goes at most that crosses the line through their middles.
-    farthest: f64,
-    /// Whether the line begins left of all beams, and ends right of them.
-    sides: [bool; 2],
+/// Walls that meet end to end, by their places among the candidates.
+struct Chain {
+    walls: [usize; LONGEST],
+    count: usize,
 }
 
-impl Group {
-    fn join(&mut self, other: &Self) {
-        self.discs.extend(&other.discs);
-        self.farthest = self.farthest.max(other.farthest);
-        self.sides = [self.sides[0] || other.sides[0], self.sides[1] || other.sides[1]];
+impl Chain {
+    fn walls(&self) -> &[usize] {
+        &self.walls[..self.count]
     }
 }
 
@@ -58,11 +49,12 @@ impl<'a> Cone<'a> {
     }
 
     /// Keeps those of the candidates that the beams can meet first. They are all that the beams
-    /// can meet, the nearest first. Returns whether any was left out because of walls that meet.
-    pub(super) fn keep_in_sight(&self, met: &mut Vec<&Candidate>) -> bool {
+    /// can meet, the nearest first. Returns the places in the world of the walls that meet, or the
+    /// discs that touch, if any was left out because of such.
+    pub(super) fn keep_in_sight(&self, met: &mut Vec<&Candidate>) -> Vec<u32> {
         let all = met.len();
         let mut nearest = f64::INFINITY;
-        let mut is_chain = false;
+        let mut chain = Chain { walls: [0; LONGEST], count: 0 };
         let mut walked = vec![false; all];
         for seed in 0..met.len() {
             if met[seed].distance > nearest {
@@ -75,29 +67,30 @@ impl<'a> Cone<'a> {
             if let Some((behind, walls)) = self.behind(met, seed, &mut walked)
                 && behind < nearest
             {
-                (nearest, is_chain) = (behind, walls > 1);
+                (nearest, chain) = (behind, walls);
             }
         }
-        if let Some((behind, discs)) = self.behind_discs(met)
-            && behind < nearest
-        {
-            (nearest, is_chain) = (behind, discs > 1);
+        let mut joined: Vec<u32> = match chain.walls() {
+            [] | [_] => Vec::new(),
+            walls => walls.iter().map(|wall| met[*wall].id).collect(),
+        };
+        if let Some((behind, discs)) = self.behind_discs(met, nearest) {
+            (nearest, joined) = (behind, discs);
         }
         met.retain(|candidate| {
             let (distance, error) = self.least_distance(candidate);
-            distance - error <= nearest + 4.0 * self.limits.slack
+            error > MOST_ERROR || distance - error <= nearest + 4.0 * self.limits.slack
         });
-        is_chain && met.len() < all
+        if met.len() < all { joined } else { Vec::new() }
     }
 
-    /// How far a beam goes at most that crosses the chain through the seed, if all do, and how
-    /// many walls that has.
-    fn behind(&self, met: &[&Candidate], seed: usize, walked: &mut [bool]) -> Option<(f64, usize)> {
+    /// How far a beam goes at most that crosses the chain through the seed, if all do, and that
+    /// chain.
+    fn behind(&self, met: &[&Candidate], seed: usize, walked: &mut [bool]) -> Option<(f64, Chain)> {
         if !met[seed].shape.is_wall() {
             return None;
         }
-        let mut chain = [seed; LONGEST];
-        let mut count = 1;
+        let mut chain = Chain { walls: [seed; LONGEST], count: 1 };
         let mut farthest = 0.0_f64;
         let mut sides = [0.0; 2];
         for (first_end, side) in sides.iter_mut().enumerate() {
@@ -108,95 +101,50 @@ impl<'a> Cone<'a> {
                 if *side != 0.0 {
                     break;
                 }
-                let (next, entry) = self.next(met, &chain[..count], wall, end)?;
+                let fits = |next: usize| !chain.walls().contains(&next);
+                let (next, entry) = self.next(met, point, fits)?;
                 farthest = farthest.max(self.farthest(point));
-                *chain.get_mut(count)? = next;
+                *chain.walls.get_mut(chain.count)? = next;
+                chain.count += 1;
                 walked[next] = true;
-                count += 1;
                 (wall, end) = (next, 1 - entry);
             }
         }
         if sides[0] == sides[1] {
             return None;
         }
-        for wall in &chain[..count] {
+        for wall in chain.walls() {
             let candidate = met[*wall];
             if !self.is_crossed_ahead(candidate) {
                 return None;
             }
             farthest = farthest.max(self.outermost(candidate) + self.error(candidate));
         }
-        Some((farthest + self.limits.slack, count))
+        Some((farthest + self.limits.slack, chain))
     }
 
-    /// How far a beam goes at most that crosses a group of discs that touch, if all beams cross the
-    /// same, and how many discs that has: the first such group when they join it by their distance.
-    fn behind_discs(&self, met: &[&Candidate]) -> Option<(f64, usize)> {
-        let mut groups: Vec<Group> = Vec::new();
-        for (index, candidate) in met.iter().enumerate() {
-            let Some(mut mine) = self.alone(index, candidate) else { continue };
-            groups.retain(|group| {
-                let touches = group.discs.iter().any(|disc| self.touch(met[*disc], candidate));
-                if touches {
-                    mine.join(group);
-                }
-                !touches
-            });
-            if mine.sides == [true; 2] {
-                return Some((mine.farthest + self.limits.slack, mine.discs.len()));
-            }
-            groups.push(mine);
-        }
-        None
-    }
-
-    /// A disc with the line across it, from its left to its right; none if that is not ahead of
-    /// all beams, or a beam may start inside.
-    fn alone(&self, index: usize, candidate: &Candidate) -> Option<Group> {
-        let Shape { ends: [middle, _], radius, .. } = candidate.shape;
-        if candidate.shape.radius == 0.0 || candidate.distance <= self.limits.slack {
-            return None;
-        }
-        let [[rx, ry], [lx, ly]] = self.arc.edges;
-        let [dx, dy] = [rx + lx, ry + ly];
-        let scale = radius / length([dx, dy]);
-        let left = [middle[0] - dy * scale, middle[1] + dx * scale];
-        let right = [middle[0] + dy * scale, middle[1] - dx * scale];
-        let line = [left, middle, right];
-        let farthest = most(line.map(|point| self.farthest(point))) + candidate.rounding.distance;
-        let sides = [self.side(left) > 0.0, self.side(right) < 0.0];
-        let group = Group { discs: vec![index], farthest, sides };
-        line.iter().all(|point| self.is_ahead(*point)).then_some(group)
-    }
-
-    /// Whether no beam passes between two discs, but for what the slack covers.
-    fn touch(&self, a: &Candidate, b: &Candidate) -> bool {
-        let apart = length(minus(a.shape.ends[0], b.shape.ends[0]));
-        apart <= a.shape.radius + b.shape.radius + self.limits.joint
-    }
-
-    /// A wall that goes on from another's end, and which of its ends that is.
-    fn next(
+    /// A wall that fits and goes on from another's end, and which of its ends that is.
+    pub(super) fn next(
         &self,
         met: &[&Candidate],
-        chain: &[usize],
-        wall: usize,
-        end: usize,
+        joint: Point,
+        fits: impl Fn(usize) -> bool,
     ) -> Option<(usize, usize)> {
-        let joint = met[wall].shape.ends[end];
-        let near = |point: Point| {
-            let [dx, dy] = minus(point, joint);
-            dx.abs() + dy.abs() <= self.limits.joint
-        };
         met.iter().enumerate().find_map(|(next, candidate)| {
-            let entry = candidate.shape.ends.iter().position(|end| near(*end))?;
-            let fits = candidate.shape.is_wall() && !chain.contains(&next);
-            fits.then_some((next, entry))
+            let mut ends = candidate.shape.ends.iter();
+            let entry = ends.position(|end| self.is_joint(*end, joint))?;
+            (candidate.shape.is_wall() && fits(next)).then_some((next, entry))
         })
     }
 
+    /// Whether walls meet that have these ends.
+    pub(super) fn is_joint(&self, a: Point, b: Point) -> bool {
+        let [dx, dy] = minus(a, b);
+        dx.abs() + dy.abs() <= self.limits.joint
+    }
+
     /// Whether no beam's line crosses the wall behind the beam's start.
-    fn is_crossed_ahead(&self, candidate: &Candidate) -> bool {
+    pub(super) fn is_crossed_ahead(&self, candidate: &Candidate) -> bool {
         let slack = self.limits.slack;
         if self.slowest(candidate) > 0.0 {
             // All beams go to the same side of the wall's line; is it before all of them?
@@ -210,14 +158,14 @@ impl<'a> Cone<'a> {
     }
 
     /// Whether a point lies ahead of wherever a beam starts, with the slack to spare.
-    fn is_ahead(&self, point: Point) -> bool {
+    pub(super) fn is_ahead(&self, point: Point) -> bool {
         let mut edges = self.arc.edges.into_iter().zip(self.ahead);
         edges.all(|(edge, most)| dot(edge, point) - most > self.limits.slack)
     }
 
     /// On which side of all beams' lines a point lies, with the slack to spare: 1 left, -1
     /// right; 0 if on neither.
-    fn side(&self, point: Point) -> f64 {
+    pub(super) fn side(&self, point: Point) -> f64 {
         let spare = 1.5 * self.limits.slack;
         let edges = || self.arc.edges.into_iter().zip(self.aside);
         if edges().all(|(edge, [_, most])| cross(edge, point) - most > spare) {
@@ -230,7 +178,7 @@ impl<'a> Cone<'a> {
     }
 
     /// From a point to the cell's farthest one.
-    fn farthest(&self, point: Point) -> f64 {
+    pub(super) fn farthest(&self, point: Point) -> f64 {
         most(self.corners.map(|corner| length(minus(point, corner))))
     }
 
@@ -261,7 +209,7 @@ impl<'a> Cone<'a> {
 
     /// How fast, of all beams, the slowest approaches the wall's line; 0 unless all go to the same
     /// side of it.
-    fn slowest(&self, candidate: &Candidate) -> f64 {
+    pub(super) fn slowest(&self, candidate: &Candidate) -> f64 {
         let [right, left] = self.arc.edges.map(|edge| dot(candidate.normal, edge));
         let sign = right.signum();
         (right * sign).min(left * sign).max(0.0)

@@ -18,6 +18,10 @@ const UNIT: f64 = 1.0 / (1 << 24) as f64;
 /// A hit's distance is off by at most so many sizes, divided by the sine of its angle.
 const AHEAD: f64 = 16.0;
 
+/// Only what has a distance with an error of at most this is left out, metres: hardly anything else
+/// is there, and so what is left out can only be computed as nearer if it is met not much later.
+pub(super) const MOST_ERROR: f64 = 0.125;
+
 /// Bounds for every obstacle of a world.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {

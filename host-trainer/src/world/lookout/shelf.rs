@@ -5,13 +5,13 @@
 //! shelf when a car turns up. Memory is asked for at once, but what no car visits is never
 //! touched, and so takes none.
 
-use super::asked::{Asked, ByName, ByPlace, place};
+use super::asked::{Asked, ByPlace, place};
 use super::beams::{self, Row};
 use super::cell::{BINS, SECTORS, Surroundings};
 use super::grid::Grid;
 use super::rounding::Limits;
-use super::words::{ALL, JOINT, NAME, NAMES, Word, Words};
-use crate::vector::Vector;
+use super::words::{JOINT, NAME, NAMES, UNKNOWN, Word, Words};
+use crate::vector::{ByName, Table, Vector, fetch};
 use crate::world::Obstacles;
 use controller_core::geometry::{Body, Segment};
 use std::sync::OnceLock;
@@ -28,11 +28,10 @@ const MOST_SHELVES: usize = 1 << 16;
 pub(super) struct Shelf {
     surroundings: Surroundings,
     has_discs: bool,
-    /// Obstacles as beams meet them, by place, after one that no beam meets; as many as there are
-    /// names at least.
-    edges: Box<[Row]>,
+    /// Obstacles as beams meet them.
+    edges: Rows,
     /// The same as bodies meet them.
-    faces: Box<[Row]>,
+    faces: Rows,
     /// What a beam can meet, by shelf and bin: where among the words; 0 where nobody has been yet.
     seen: Box<[AtomicU16]>,
     /// What the body can touch, by shelf and sector, likewise.
@@ -41,6 +40,15 @@ pub(super) struct Shelf {
     /// Lists that do not fit into a word, by shelf; set once the shelf's words are written.
     lists: Box<[OnceLock<Lists>]>,
     large: Option<Large>,
+}
+
+/// Obstacles.
+#[derive(Debug)]
+struct Rows {
+    /// By place, after one that nothing meets.
+    all: Box<[Row]>,
+    /// By name, in a small world.
+    named: Table,
 }
 
 /// What a large world has besides.
@@ -93,9 +101,8 @@ impl Shelf {
             let mut rows = vec![nothing];
             rows.extend(walls.iter().map(wall));
             rows.extend(discs.iter().map(beams::disc));
-            // So that every name has a row.
-            rows.resize(rows.len().max(usize::from(u8::MAX) + 1), nothing);
-            rows.into()
+            let named = Table::new(&rows[..rows.len().min(1 << NAME)]);
+            Rows { all: rows.into(), named }
         };
         let is_large = Self::are_many(obstacles) || grid.cells() >= MOST_SHELVES;
         let large = is_large.then(|| Large {
@@ -136,10 +143,16 @@ impl Shelf {
         shelves: V,
         bins: V,
     ) {
-        self.ask(asked, question, &self.seen, shelves, bins, BINS);
+        self.ask(asked, question, shelves, bins, BINS);
     }
 
-    /// Asks what bodies in these sectors can touch.
+    /// Has what the question asks for fetched.
+    #[inline(always)]
+    pub(super) fn fetch_seen<V: Vector, const N: usize>(&self, asked: &Asked<N>, question: usize) {
+        asked.fetch::<V>(question, &self.seen);
+    }
+
+    /// Asks what bodies in these sectors can touch, and has it fetched.
     #[inline(always)]
     pub(super) fn ask_near<V: Vector, const N: usize>(
         &self,
@@ -148,7 +161,8 @@ impl Shelf {
         shelves: V,
         sectors: V,
     ) {
-        self.ask(asked, question, &self.near, shelves, sectors, SECTORS);
+        self.ask(asked, question, shelves, sectors, SECTORS);
+        asked.fetch::<V>(question, &self.near);
     }
 
     #[inline(always)]
@@ -156,14 +170,25 @@ impl Shelf {
         &self,
         asked: &mut Asked<N>,
         question: usize,
-        numbers: &[AtomicU16],
         shelves: V,
         part: V,
         parts: u32,
     ) {
-        let at = (shelves * V::from(parts as f32) + part).places();
+        let places = shelves * V::from(parts as f32) + part;
         let shelves = self.large.is_some().then(|| shelves.places());
-        asked.write::<V>(question, &self.words, numbers, &at, shelves);
+        asked.ask(question, places, shelves);
+    }
+
+    /// Answers what beams can meet.
+    #[inline(always)]
+    pub(super) fn answer_seen<V: Vector, const N: usize>(&self, asked: &mut Asked<N>) {
+        asked.answer::<V>(&self.seen, self.words.all());
+    }
+
+    /// Answers what bodies can touch.
+    #[inline(always)]
+    pub(super) fn answer_near<V: Vector, const N: usize>(&self, asked: &mut Asked<N>) {
+        asked.answer::<V>(&self.near, self.words.all());
     }
 
     /// The shelves of these cells.
@@ -173,7 +198,12 @@ impl Shelf {
         let cells = cells.places();
         let mut shelves = V::from(0.0);
         for (shelf, cell) in shelves.lanes_mut().iter_mut().zip(cells) {
-            *shelf = large.shelves[cell as usize].load(Ordering::Relaxed) as f32;
+            let taken = large.shelves[cell as usize].load(Ordering::Relaxed);
+            // What most of its names mean.
+            for name in (0..48).step_by(16) {
+                fetch(&large.places, place(taken, name));
+            }
+            *shelf = taken as f32;
         }
         shelves
     }
@@ -203,20 +233,17 @@ impl Shelf {
     #[inline(always)]
     fn rows<V: Vector, const N: usize>(
         &self,
-        table: &[Row],
+        table: &Rows,
         asked: &Asked<N>,
         question: usize,
         round: usize,
     ) -> [V; 4] {
         let words = asked.words(question);
         match &self.large {
-            None => {
-                let table = table.first_chunk().expect("a row for every name");
-                V::rows(ByName { table, words, round })
-            }
+            None => V::named(ByName { table: &table.named, words, byte: round }),
             Some(Large { places, .. }) => {
                 let shelves = asked.shelves(question);
-                V::rows(ByPlace { table, places, words, shelves, round })
+                V::rows(ByPlace { table: &table.all, places, words, shelves, round })
             }
         }
     }
@@ -239,15 +266,16 @@ impl Shelf {
             Question::Seen(bin) => (&self.seen, &self.edges, shelf * BINS + bin),
             Question::Near(sector) => (&self.near, &self.faces, shelf * SECTORS + sector),
         };
-        let word = self.words.of(&numbers[at as usize]);
-        if word & ALL == 0 {
-            let (list, joint) = lists.get((word as usize).checked_sub(1)?)?;
-            list.iter().for_each(|place| f(&table[*place as usize + 1]));
+        let word = self.words.all().of(&numbers[at as usize]);
+        if word & UNKNOWN != 0 {
+            let number = (word & !UNKNOWN) as usize;
+            let (list, joint) = lists.get(number.checked_sub(1)?)?;
+            list.iter().for_each(|place| f(&table.all[*place as usize + 1]));
             return Some(*joint);
         }
         let names = word.to_le_bytes();
         for name in names[..NAMES].iter().take_while(|name| **name != 0) {
-            f(&table[self.row(shelf, *name)]);
+            f(&table.all[self.row(shelf, *name)]);
         }
         Some(word & JOINT != 0)
     }
@@ -292,14 +320,14 @@ impl Shelf {
         let mut named: Vec<u32> = Vec::new();
         let mut write = |at: u32, is_near: bool, places: &[u32], joint: bool| {
             let names = places.iter().map(|place| self.name(shelf, *place, &mut named));
-            let flags = if joint { ALL | JOINT } else { ALL };
+            let flags = if joint { JOINT } else { 0 };
             let all = (places.len() <= NAMES).then_some(flags);
             let word = names
                 .zip(0..)
                 .fold(all, |word, (name, n)| Some(word? | Word::from(name?) << (n * NAME)));
             let word = word.unwrap_or_else(|| {
                 long.push((places.into(), joint));
-                long.len() as Word
+                long.len() as Word | UNKNOWN
             });
             // Without a number, all obstacles are asked.
             let number = self.words.number(word).unwrap_or(0);
