@@ -3,8 +3,11 @@
 //! A *block* drives [`SLOTS`] cars in each lane of this CPU's vectors. A lane belongs to one
 //! individual, whose weights are a column of the block's weights; its cars drive that
 //! individual's pairs. A car whose drive has ended takes the next pair, a lane whose individual
-//! is done the next individual, until there is nothing left to drive. Drives end when they
-//! like, so lanes and order are a matter of chance; outcomes are kept by individual and pair.
+//! is done the next individual, until there is nothing left to drive. Where individuals have few
+//! pairs and drives end early, cars come to wait for the longest drive of their lane; once they have
+//! waited too much, each car is given weights of its own and goes from individual to individual by
+//! itself. Drives end when they like, so lanes and order are a matter of chance; outcomes are kept by
+//! individual and pair.
 //!
 //! [`episode::drive`](crate::episode::drive) is the reference: every operation here is the same
 //! generic function over a wider lane, or the same function called for one car after the other
@@ -14,7 +17,7 @@
 //! | look in | for |
 //! | --- | --- |
 //! | `queue` | who drives what next |
-//! | `block` | lanes and slots, and what happens when a drive ends |
+//! | `block` | lanes and slots, what happens when a drive ends, how long cars wait for each other |
 //! | `cars` | one car in each lane: what they see, how they move |
 //! | `tape` | noise and dropped beams, drawn once for all who drive a pair |
 //! | `forward` | the networks of all cars, sizes known at run time |
@@ -81,26 +84,18 @@ impl Fleet<'_> {
 
     /// Drives on the current rayon pool; none once `stop` is raised.
     pub fn drive(&self, instructions: Instructions, stop: &StopFlag) -> Option<Drives> {
-        self.drive_by(rayon::current_num_threads(), instructions, stop, |work| {
-            rayon::broadcast(|_| instructions.run(work))
-        })
+        self.drive_by(stop, |work| rayon::broadcast(|_| instructions.run(work)))
     }
 
     /// Drives on this thread alone; none once `stop` is raised.
     pub fn drive_here(&self, instructions: Instructions, stop: &StopFlag) -> Option<Drives> {
-        self.drive_by(1, instructions, stop, |work| vec![instructions.run(work)])
+        self.drive_by(stop, |work| vec![instructions.run(work)])
     }
 
-    fn drive_by(
-        &self,
-        threads: usize,
-        instructions: Instructions,
-        stop: &StopFlag,
-        all: impl FnOnce(Work<'_>) -> Vec<Done>,
-    ) -> Option<Drives> {
-        let queue = Queue::new(self.individuals(), self.pairs.len(), threads, instructions, stop);
+    fn drive_by(&self, stop: &StopFlag, run: impl FnOnce(Work<'_>) -> Vec<Done>) -> Option<Drives> {
+        let queue = Queue::new(self.individuals(), self.pairs.len(), stop);
         let tapes = Tapes::of(self);
-        let done = all(Work { fleet: self, queue: &queue, tapes: &tapes });
+        let done = run(Work { fleet: self, queue: &queue, tapes: &tapes });
         if stop.requested().is_some() {
             return None;
         }

@@ -127,13 +127,13 @@ pub fn step_together(genomes: &[f32], steps: usize, set: Instructions) {
         type Output = ();
         #[inline(always)]
         fn run<V: Vector>(self) {
-            let mut weights = vec![Weight(V::from(0.0)); WEIGHTS];
+            let mut weights = vec![Weight([V::from(0.0)]); WEIGHTS];
             for (lane, genome) in self.0.chunks(WEIGHTS).enumerate() {
                 for (weight, gene) in weights.iter_mut().zip(genome) {
-                    weight.0.lanes_mut()[lane] = *gene;
+                    weight.0[0].lanes_mut()[lane] = *gene;
                 }
             }
-            let network = Network::<Elman, Weight<V>, INPUTS, HIDDEN, 1>::new(&weights, true);
+            let network = Network::<Elman, Weight<V, 1>, INPUTS, HIDDEN, 1>::new(&weights, true);
             let network = network.expect("the workload's topology");
             let mut state = State::<Slots<V, SLOTS>, HIDDEN>::reset();
             let mut inputs = [Slots::<V, SLOTS>::from(0.5); INPUTS];

@@ -14,11 +14,11 @@ pub struct Slots<V, const K: usize>(pub [V; K]);
 #[derive(Clone, Copy, Debug)]
 pub struct SlotsMask<M, const K: usize>(pub [M; K]);
 
-/// A network's weight, one individual per lane. A type of its own, because a weight is spread
-/// over the vectors where a number is spread over the lanes.
+/// A network's weight of `SETS` individuals in each lane. A type of its own, because a weight is
+/// spread over the vectors where a number is spread over the lanes.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
-pub struct Weight<V>(pub V);
+pub struct Weight<V, const SETS: usize>(pub [V; SETS]);
 
 impl<V: Vector, const K: usize> Slots<V, K> {
     /// Every number: all lanes of the first vector, then of the second.
@@ -51,10 +51,14 @@ impl<V: Lane, const K: usize> From<f32> for Slots<V, K> {
     }
 }
 
-impl<V: Lane, const K: usize> From<Weight<V>> for Slots<V, K> {
+impl<V: Lane, const K: usize, const SETS: usize> From<Weight<V, SETS>> for Slots<V, K> {
     #[inline(always)]
-    fn from(weight: Weight<V>) -> Self {
-        Self([weight.0; K])
+    fn from(weight: Weight<V, SETS>) -> Self {
+        let mut all = [weight.0[0]; K];
+        for (slot, one) in all.iter_mut().enumerate() {
+            *one = weight.0[slot * SETS / K];
+        }
+        Self(all)
     }
 }
 

@@ -1,4 +1,4 @@
-//! A block of cars: lanes for individuals, slots for their drives.
+//! A block of cars: lanes for individuals, slots for their drives, as long as that keeps cars busy.
 
 use super::cars::Cars;
 use super::forward::Networks;
@@ -10,22 +10,31 @@ use crate::episode::{Outcome, start_pose};
 use crate::vector::{Vector, ones};
 use controller_core::observation::BEAMS;
 
+/// Once one in so many of all cars' control periods was waited for the rest of a lane, each car is
+/// given weights of its own. These are more bytes to read: by measurement a period takes 5 to 15 %
+/// longer.
+const PATIENCE: u64 = 5;
+
 /// The cars of one thread.
 pub(super) struct Block<'a, V> {
     fleet: &'a Fleet<'a>,
     queue: &'a Queue<'a>,
     networks: Networks<V>,
     cars: [Cars<'a, V>; SLOTS],
-    /// Of each lane: what is left of its job.
-    jobs: Vec<Job>,
-    /// Of each slot and lane.
+    /// Of each lane and slot: whose weights its car has.
+    individuals: Vec<[Option<usize>; SLOTS]>,
+    /// Of each lane and slot.
     drives: Vec<[Drive; SLOTS]>,
     /// Control periods since the block began.
     clock: u64,
     /// The earliest control period in which a drive's time is up.
     next_deadline: u64,
-    /// Whether a lane may have something to fill it with.
+    /// Whether an idle car may find something to drive.
     has_room: bool,
+    /// Cars that are idle for no other reason than that others of their lane are not.
+    waiting: usize,
+    /// Control periods that cars have waited so, all together.
+    waited: u64,
     outcomes: Vec<(usize, Outcome)>,
     tally: Tally,
 }
@@ -51,11 +60,13 @@ impl<'a, V: Vector> Block<'a, V> {
             queue,
             networks: Networks::new(problem.topology(), problem.activation()),
             cars: [(); SLOTS].map(|()| cars()),
-            jobs: vec![Job::default(); V::WIDTH],
+            individuals: vec![[None; SLOTS]; V::WIDTH],
             drives: (0..V::WIDTH).map(|_| Default::default()).collect(),
             clock: 0,
             next_deadline: u64::MAX,
             has_room: true,
+            waiting: 0,
+            waited: 0,
             outcomes: Vec::with_capacity(fleet.individuals() * fleet.pairs.len()),
             tally: Tally::default(),
         }
@@ -72,6 +83,9 @@ impl<'a, V: Vector> Block<'a, V> {
         if self.has_room {
             self.refill();
         }
+        if self.waiting > 0 {
+            self.wait();
+        }
         let mut live = 0;
         for cars in &self.cars {
             live |= cars.live;
@@ -85,7 +99,7 @@ impl<'a, V: Vector> Block<'a, V> {
         for lane in 0..V::WIDTH {
             for slot in 0..SLOTS {
                 if self.cars[slot].live >> lane & 1 == 0
-                    && let Some(pair) = self.next_pair(lane)
+                    && let Some(pair) = self.next_pair(lane, slot)
                 {
                     let begun = self.clock;
                     let deadline =
@@ -96,23 +110,46 @@ impl<'a, V: Vector> Block<'a, V> {
                 }
             }
         }
+        let may_separate = self.networks.may_separate() && self.queue.has_drives();
+        self.waiting = if may_separate { self.idle() } else { 0 };
     }
 
-    /// What a lane drives next: its own job, more for the same individual, or, once its cars
-    /// are all idle, another individual.
-    fn next_pair(&mut self, lane: usize) -> Option<usize> {
-        let job = &mut self.jobs[lane];
-        if let Some(pair) = job.pairs.next() {
+    /// What a car drives next: another pair for the individual whose weights it has, or, once
+    /// all that share them are idle, one for another individual.
+    fn next_pair(&mut self, lane: usize, slot: usize) -> Option<usize> {
+        let individual = self.individuals[lane][slot];
+        if let Some(pair) = individual.and_then(|individual| self.queue.take_more(individual)) {
             return Some(pair);
         }
-        let busy = self.cars.iter().any(|cars| cars.live >> lane & 1 == 1);
-        *job = if busy { self.queue.take_more(job.individual)? } else { self.queue.take()? };
-        if !busy {
-            let length = self.fleet.problem.topology().weights();
-            let start = job.individual * length;
-            self.networks.load(lane, &self.fleet.genomes[start..start + length]);
+        let sharing = self.networks.sharing(slot);
+        if self.cars[sharing.clone()].iter().any(|cars| cars.live >> lane & 1 == 1) {
+            return None;
         }
-        job.pairs.next()
+        let Job { individual, pair } = self.queue.take()?;
+        self.individuals[lane][sharing].fill(Some(individual));
+        let length = self.fleet.problem.topology().weights();
+        let start = individual * length;
+        self.networks.load(slot, lane, &self.fleet.genomes[start..start + length]);
+        Some(pair)
+    }
+
+    fn idle(&self) -> usize {
+        let live: u32 = self.cars.iter().map(|cars| cars.live.count_ones()).sum();
+        SLOTS * V::WIDTH - live as usize
+    }
+
+    /// Lets cars wait for the rest of their lane, unless they have waited too much by now.
+    fn wait(&mut self) {
+        self.waited += self.waiting as u64;
+        if self.waited * PATIENCE > (self.clock + 1) * (SLOTS * V::WIDTH) as u64 {
+            self.separate();
+        }
+    }
+
+    /// Gives each car weights of its own and whatever there is to drive.
+    pub(super) fn separate(&mut self) {
+        self.networks.separate();
+        self.refill();
     }
 
     /// Puts a car at the start of its drive.
@@ -187,6 +224,12 @@ impl<'a, V: Vector> Block<'a, V> {
         }
     }
 
+    /// Whether each car has weights of its own by now.
+    #[cfg(test)]
+    pub(super) fn are_separate(&self) -> bool {
+        self.networks.sharing(0).len() == 1
+    }
+
     /// Every car with a drive: the drive, its steps so far, pose and hidden outputs.
     #[cfg(test)]
     pub(super) fn look(
@@ -196,7 +239,7 @@ impl<'a, V: Vector> Block<'a, V> {
         for slot in 0..SLOTS {
             for lane in ones(self.cars[slot].live) {
                 let drive = &self.drives[lane][slot];
-                let index = self.jobs[lane].individual * self.fleet.pairs.len() + drive.pair;
+                let index = self.index(lane, slot);
                 let (pose, hidden) =
                     (self.cars[slot].pose_of(lane), self.networks.hidden(slot, lane));
                 cars.push((index, (self.clock - drive.begun) as usize, pose, hidden));
@@ -244,9 +287,14 @@ impl<'a, V: Vector> Block<'a, V> {
         }
     }
 
+    /// The place of a car's drive among all of the fleet.
+    fn index(&self, lane: usize, slot: usize) -> usize {
+        let individual = self.individuals[lane][slot].expect("a car has weights before it drives");
+        individual * self.fleet.pairs.len() + self.drives[lane][slot].pair
+    }
+
     fn keep(&mut self, lane: usize, slot: usize, outcome: Outcome) {
-        let pair = self.drives[lane][slot].pair;
-        let index = self.jobs[lane].individual * self.fleet.pairs.len() + pair;
+        let index = self.index(lane, slot);
         self.outcomes.push((index, outcome));
         self.cars[slot].live &= !(1 << lane);
         self.has_room = true;

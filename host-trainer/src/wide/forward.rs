@@ -9,6 +9,7 @@ use controller_core::network::{
 };
 use controller_core::observation::INPUTS;
 use std::marker::PhantomData;
+use std::ops::Range;
 
 /// Most outputs of a network: steering and speed.
 pub(super) const OUTPUTS: usize = 2;
@@ -16,9 +17,14 @@ pub(super) const OUTPUTS: usize = 2;
 /// One number of every car.
 type All<V> = Slots<V, SLOTS>;
 
-/// Networks of one topology, one individual per lane, with a memory per car.
+/// Most bytes of weights of a block whose cars are separate: what a core's second cache holds. By
+/// measurement 620 KB still pay and 1.1 MB do not.
+const MOST_BYTES: usize = 768 << 10;
+
+/// Networks of one topology, with a memory per car. All cars of a lane have the weights of one
+/// individual until they are [separated](Networks::separate).
 pub(super) struct Networks<V> {
-    weights: Vec<Weight<V>>,
+    weights: Weights<V>,
     memory: Box<dyn Memory<V>>,
     /// What the networks are asked; to be written before [`Self::step`].
     pub(super) inputs: [All<V>; INPUTS],
@@ -36,17 +42,44 @@ impl<V: Vector> Networks<V> {
             RecurrenceKind::Elman => memory::<V, Elman>(topology, activation),
         };
         Self {
-            weights: vec![Weight(V::from(0.0)); topology.weights()],
+            weights: Weights::OfLanes(vec![Weight([V::from(0.0)]); topology.weights()]),
             memory,
             inputs: [zero; INPUTS],
             outputs: [zero; OUTPUTS],
         }
     }
 
-    /// Gives a lane to another individual.
-    pub(super) fn load(&mut self, lane: usize, genome: &[f32]) {
-        for (weight, gene) in self.weights.iter_mut().zip(genome) {
-            weight.0.lanes_mut()[lane] = *gene;
+    /// Gives a car, and all that [share](Self::sharing) its weights, to another individual.
+    pub(super) fn load(&mut self, slot: usize, lane: usize, genome: &[f32]) {
+        match &mut self.weights {
+            Weights::OfLanes(weights) => load(weights, 0, lane, genome),
+            Weights::OfCars(weights) => load(weights, slot, lane, genome),
+        }
+    }
+
+    /// The slots of a lane whose cars have the same weights as the one in this slot.
+    pub(super) fn sharing(&self, slot: usize) -> Range<usize> {
+        match self.weights {
+            Weights::OfLanes(_) => 0..SLOTS,
+            Weights::OfCars(_) => slot..slot + 1,
+        }
+    }
+
+    /// Whether cars share weights and are faster once [separated](Self::separate) than if they wait for
+    /// each other.
+    pub(super) fn may_separate(&self) -> bool {
+        match &self.weights {
+            Weights::OfLanes(weights) => SLOTS * size_of_val(&weights[..]) <= MOST_BYTES,
+            Weights::OfCars(_) => false,
+        }
+    }
+
+    /// From now on each car has weights of its own, at first those that it has now. Others to load
+    /// for each car then, but a car need not wait for the rest of its lane.
+    pub(super) fn separate(&mut self) {
+        if let Weights::OfLanes(weights) = &self.weights {
+            let own = weights.iter().map(|Weight([weight])| Weight([*weight; SLOTS]));
+            self.weights = Weights::OfCars(own.collect());
         }
     }
 
@@ -70,10 +103,29 @@ impl<V: Vector> Networks<V> {
     }
 }
 
+/// The weights of all cars' networks, in the genome's order.
+enum Weights<V> {
+    /// One individual in each lane.
+    OfLanes(Vec<Weight<V, 1>>),
+    /// One in each slot of each lane.
+    OfCars(Vec<Weight<V, SLOTS>>),
+}
+
+fn load<V: Vector, const SETS: usize>(
+    weights: &mut [Weight<V, SETS>],
+    set: usize,
+    lane: usize,
+    genome: &[f32],
+) {
+    for (weight, gene) in weights.iter_mut().zip(genome) {
+        weight.0[set].lanes_mut()[lane] = *gene;
+    }
+}
+
 /// The hidden outputs of all cars' networks, whatever their sizes.
 trait Memory<V> {
     /// One step of all networks.
-    fn step(&mut self, weights: &[Weight<V>], inputs: &[All<V>; INPUTS], outputs: &mut [All<V>]);
+    fn step(&mut self, weights: &Weights<V>, inputs: &[All<V>; INPUTS], outputs: &mut [All<V>]);
 
     /// Shows every hidden output, first layer then second.
     fn visit(&mut self, look: &mut dyn FnMut(&mut All<V>));
@@ -98,11 +150,11 @@ struct Sized<V, R, const H: usize, const O: usize> {
 }
 
 impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Memory<V> for Sized<V, R, H, O> {
-    fn step(&mut self, weights: &[Weight<V>], inputs: &[All<V>; INPUTS], outputs: &mut [All<V>]) {
-        let network = Network::<R, Weight<V>, INPUTS, H, O>::new(weights, self.biases);
-        let network = network.expect("as many weights as the topology has");
-        let (state, activation) = (&mut self.state, self.activation);
-        V::apart(Step { network, state, activation, inputs, outputs });
+    fn step(&mut self, weights: &Weights<V>, inputs: &[All<V>; INPUTS], outputs: &mut [All<V>]) {
+        match weights {
+            Weights::OfLanes(weights) => self.step_with(weights, inputs, outputs),
+            Weights::OfCars(weights) => self.step_with(weights, inputs, outputs),
+        }
     }
 
     fn visit(&mut self, look: &mut dyn FnMut(&mut All<V>)) {
@@ -111,16 +163,32 @@ impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Memory<V> for Siz
     }
 }
 
+impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Sized<V, R, H, O> {
+    fn step_with<const SETS: usize>(
+        &mut self,
+        weights: &[Weight<V, SETS>],
+        inputs: &[All<V>; INPUTS],
+        outputs: &mut [All<V>],
+    ) {
+        let network = Network::<R, Weight<V, SETS>, INPUTS, H, O>::new(weights, self.biases);
+        let network = network.expect("as many weights as the topology has");
+        let (state, activation) = (&mut self.state, self.activation);
+        V::apart(Step { network, state, activation, inputs, outputs });
+    }
+}
+
 /// One step, to be compiled for the vectors' instructions.
-struct Step<'a, V: Vector, R: Recurrence, const H: usize, const O: usize> {
-    network: Network<'a, R, Weight<V>, INPUTS, H, O>,
+struct Step<'a, V: Vector, R: Recurrence, const SETS: usize, const H: usize, const O: usize> {
+    network: Network<'a, R, Weight<V, SETS>, INPUTS, H, O>,
     state: &'a mut State<All<V>, H>,
     activation: ActivationKind,
     inputs: &'a [All<V>; INPUTS],
     outputs: &'a mut [All<V>],
 }
 
-impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Part<V> for Step<'_, V, R, H, O> {
+impl<V: Vector, R: Recurrence, const SETS: usize, const H: usize, const O: usize> Part<V>
+    for Step<'_, V, R, SETS, H, O>
+{
     type Output = ();
 
     #[inline(always)]

@@ -1,76 +1,88 @@
-//! Who drives what next: the pairs of all individuals, handed out in order.
+//! Who drives what next: the pairs of all individuals, handed out one by one.
 
-use super::SLOTS;
 use crate::signals::StopFlag;
-use crate::vector::Instructions;
-use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Most pairs that are handed out together, as a multiple of [`SLOTS`].
-const MOST_ROUNDS: usize = 4;
-
-/// Some pairs of one individual.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// A pair of an individual.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Job {
     /// The individual.
     pub(super) individual: usize,
-    /// The pairs.
-    pub(super) pairs: Range<usize>,
+    /// The pair.
+    pub(super) pair: usize,
 }
 
 /// All that is left to drive; shared by all threads.
 #[derive(Debug)]
 pub(super) struct Queue<'a> {
-    next: AtomicUsize,
-    individuals: usize,
+    /// Individuals, the first ones, of whom something has been handed out.
+    begun: AtomicUsize,
+    /// Individuals, the first ones, of whom nothing is left.
+    over: AtomicUsize,
+    /// Of each individual: the next pair.
+    next: Vec<AtomicUsize>,
     pairs: usize,
-    together: usize,
     stop: &'a StopFlag,
 }
 
 impl<'a> Queue<'a> {
-    /// Every pair for every individual. So many are handed out together that a lane has some to
-    /// refill from, but not so many that lanes run empty at the end.
-    pub(super) fn new(
-        individuals: usize,
-        pairs: usize,
-        threads: usize,
-        instructions: Instructions,
-        stop: &'a StopFlag,
-    ) -> Self {
-        let lanes = threads * instructions.width();
-        let together = individuals * pairs / (4 * lanes);
-        let together = together.clamp(SLOTS, MOST_ROUNDS * SLOTS);
-        Self { next: AtomicUsize::new(0), individuals, pairs, together, stop }
+    /// Every pair for every individual.
+    pub(super) fn new(individuals: usize, pairs: usize, stop: &'a StopFlag) -> Self {
+        let next = (0..individuals).map(|_| AtomicUsize::new(0)).collect();
+        Self { begun: AtomicUsize::new(0), over: AtomicUsize::new(0), next, pairs, stop }
     }
 
-    /// Whether everything has been handed out, or the user wants no more.
+    /// Whether the user wants no more.
     pub(super) fn is_stopped(&self) -> bool {
         self.stop.requested().is_some()
     }
 
-    /// The next job.
+    /// Whether there is anything left.
+    pub(super) fn has_drives(&self) -> bool {
+        self.first_left().is_some()
+    }
+
+    /// A pair of an individual who has not begun, or, once all have, of the first of whom any is
+    /// left: whoever takes it has weights to load, while those who have them go on with
+    /// [`Self::take_more`].
     pub(super) fn take(&self) -> Option<Job> {
         if self.is_stopped() {
             return None;
         }
-        self.job(self.next.fetch_add(1, Ordering::Relaxed))
+        if self.begun.load(Ordering::Relaxed) < self.next.len() {
+            let individual = self.begun.fetch_add(1, Ordering::Relaxed);
+            if let Some(pair) = self.take_more(individual) {
+                return Some(Job { individual, pair });
+            }
+        }
+        loop {
+            let individual = self.first_left()?;
+            if let Some(pair) = self.take_more(individual) {
+                return Some(Job { individual, pair });
+            }
+        }
     }
 
-    /// The next job, if it is of this individual.
-    pub(super) fn take_more(&self, individual: usize) -> Option<Job> {
-        let next = self.next.load(Ordering::Relaxed);
-        let job = self.job(next).filter(|job| job.individual == individual)?;
-        let (done, free) = (Ordering::Relaxed, Ordering::Relaxed);
-        self.next.compare_exchange(next, next + 1, done, free).ok().map(|_| job)
+    /// Another pair of this individual.
+    pub(super) fn take_more(&self, individual: usize) -> Option<usize> {
+        if !self.has_more(individual) {
+            return None;
+        }
+        let pair = self.next[individual].fetch_add(1, Ordering::Relaxed);
+        (pair < self.pairs).then_some(pair)
     }
 
-    fn job(&self, number: usize) -> Option<Job> {
-        let per_individual = self.pairs.div_ceil(self.together).max(1);
-        let (individual, part) = (number / per_individual, number % per_individual);
-        let start = part * self.together;
-        let pairs = start..(start + self.together).min(self.pairs);
-        (individual < self.individuals && !pairs.is_empty()).then_some(Job { individual, pairs })
+    fn has_more(&self, individual: usize) -> bool {
+        let next = self.next.get(individual);
+        next.is_some_and(|next| next.load(Ordering::Relaxed) < self.pairs)
+    }
+
+    /// The first individual of whom a pair is left.
+    fn first_left(&self) -> Option<usize> {
+        let over = self.over.load(Ordering::Relaxed);
+        let first = (over..self.next.len()).find(|individual| self.has_more(*individual));
+        self.over.fetch_max(first.unwrap_or(self.next.len()), Ordering::Relaxed);
+        first
     }
 }
 
@@ -81,28 +93,35 @@ mod tests {
     #[test]
     fn every_individual_gets_every_pair_once_whoever_takes_them() {
         let stop = StopFlag::default();
-        for (individuals, pairs, threads) in [(1, 1, 1), (3, 5, 2), (7, 64, 1), (1, 1000, 2)] {
-            for instructions in Instructions::ALL {
-                let queue = Queue::new(individuals, pairs, threads, instructions, &stop);
-                let mut driven = vec![0; individuals * pairs];
-                let mut last = None;
-                while let Some(job) =
-                    last.and_then(|individual| queue.take_more(individual)).or_else(|| queue.take())
-                {
-                    last = (last != Some(job.individual)).then_some(job.individual);
-                    for pair in job.pairs {
-                        driven[job.individual * pairs + pair] += 1;
-                    }
+        for (individuals, pairs) in [(1, 1), (3, 5), (7, 64), (1, 1000), (4, 0)] {
+            let queue = Queue::new(individuals, pairs, &stop);
+            let mut driven = vec![0; individuals * pairs];
+            while let Some(Job { individual, pair }) = queue.take() {
+                driven[individual * pairs + pair] += 1;
+                // Some take what is left of their individual, some a few, some none.
+                for _ in 0..[1000, 2, 0][individual % 3] {
+                    let Some(pair) = queue.take_more(individual) else { break };
+                    driven[individual * pairs + pair] += 1;
                 }
-                assert!(driven.iter().all(|times| *times == 1), "{individuals} {pairs}");
+                assert_eq!(queue.has_drives(), driven.contains(&0));
             }
+            assert!(driven.iter().all(|times| *times == 1), "{individuals} {pairs}");
         }
+    }
+
+    #[test]
+    fn all_individuals_begin_before_anybody_is_helped() {
+        let stop = StopFlag::default();
+        let queue = Queue::new(3, 2, &stop);
+        let taken: Vec<_> = std::iter::from_fn(|| queue.take()).collect();
+        let job = |individual, pair| Job { individual, pair };
+        assert_eq!(taken, [job(0, 0), job(1, 0), job(2, 0), job(0, 1), job(1, 1), job(2, 1)]);
     }
 
     #[test]
     fn nothing_is_handed_out_any_more_once_the_user_wants_to_stop() {
         let stop = StopFlag::default();
-        let queue = Queue::new(10, 5, 1, Instructions::Scalar, &stop);
+        let queue = Queue::new(10, 5, &stop);
         assert!(queue.take().is_some());
         stop.request(2);
         assert!(queue.take().is_none());

@@ -3,7 +3,7 @@
 use super::block::Block;
 use super::queue::Queue;
 use super::tape::Tapes;
-use super::{Fleet, Tally};
+use super::{Fleet, SLOTS, Tally};
 use crate::disturbances::Disturbances;
 use crate::episode::{Outcome, Trace};
 use crate::pairs::PairSampler;
@@ -201,6 +201,8 @@ struct Watch<'a> {
     queue: &'a Queue<'a>,
     tapes: &'a Tapes,
     traces: &'a [Trace],
+    /// Steps before each car is given weights of its own.
+    together: usize,
 }
 
 impl Kernel for Watch<'_> {
@@ -209,8 +211,12 @@ impl Kernel for Watch<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) -> usize {
         let mut block = Block::<V>::new(self.fleet, self.queue, self.tapes);
-        let mut seen = 0;
+        let (mut seen, mut steps) = (0, 0);
         while block.fill() {
+            if steps == self.together {
+                block.separate();
+            }
+            steps += 1;
             for (index, step, pose, hidden) in block.look() {
                 let trace = &self.traces[index].steps;
                 let expected = &trace[step].pose;
@@ -231,17 +237,18 @@ impl Kernel for Watch<'_> {
     }
 }
 
-#[test]
-fn every_pose_and_every_hidden_output_is_that_of_the_drive_alone() {
+/// Looks at every step of so many individuals' drives, whose cars are separated after so many steps.
+fn watch(individuals: usize, count: u32, together: usize) {
     let mut scenario = scenario::load(&scenario::find("complex").unwrap(), None, &[]).unwrap();
     scenario.network.recurrence = RecurrenceKind::Elman;
     scenario.sensors.noise = 0.02;
     scenario.vehicle.delay_periods = 2;
     scenario.vehicle.servo_rate = Some(5.0);
     scenario.episode.step_limit = 80;
+    scenario.episode.on_collision = OnCollision::Stop;
     let problem = Problem::new(scenario).unwrap();
-    let pairs = pairs(&problem, 7, 3);
-    let genomes = genomes(&problem, 23, 3);
+    let pairs = pairs(&problem, count, 3);
+    let genomes = genomes(&problem, individuals, 3);
     let random = |pair| evaluation_drive(RunSeed(3), pair);
     let mut traces = Vec::new();
     for (individual, genome) in genomes.chunks(problem.topology().weights()).enumerate() {
@@ -262,12 +269,83 @@ fn every_pose_and_every_hidden_output_is_that_of_the_drive_alone() {
     };
     for set in Instructions::available() {
         let stop = StopFlag::default();
-        let queue = Queue::new(23, pairs.len(), 1, set, &stop);
+        let queue = Queue::new(individuals, pairs.len(), &stop);
         let tapes = Tapes::of(&fleet);
-        let watch = Watch { fleet: &fleet, queue: &queue, tapes: &tapes, traces: &traces };
+        let watch =
+            Watch { fleet: &fleet, queue: &queue, tapes: &tapes, traces: &traces, together };
         let seen = set.run(watch);
         assert_eq!(seen, steps, "{set}");
     }
+}
+
+#[test]
+fn every_pose_and_every_hidden_output_is_that_of_the_drive_alone() {
+    watch(23, 7, usize::MAX);
+}
+
+#[test]
+fn every_pose_and_hidden_output_stays_that_of_the_drive_alone_once_cars_are_separate() {
+    for together in [0, 1, 17, 100] {
+        // More individuals than there are lanes or cars, and fewer drives than cars.
+        watch(SLOTS * MOST_LANES + 3, 3, together);
+        watch(3, 2, together);
+    }
+}
+
+/// Drives a fleet: whether its cars were separated, and which share of their control periods they drove.
+struct Waiting<'a>(&'a Fleet<'a>);
+
+impl Kernel for Waiting<'_> {
+    type Output = (bool, f64);
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> (bool, f64) {
+        let stop = StopFlag::default();
+        let queue = Queue::new(self.0.individuals(), self.0.pairs.len(), &stop);
+        let tapes = Tapes::of(self.0);
+        let mut block = Block::<V>::new(self.0, &queue, &tapes);
+        let mut periods = 0;
+        while block.fill() {
+            block.step();
+            periods += SLOTS * V::WIDTH;
+        }
+        (block.are_separate(), block.done().1.steps as f64 / periods as f64)
+    }
+}
+
+/// What [`Waiting`] says, with the widest vectors, of drives that a collision ends.
+fn waiting(individuals: usize, count: u32, hidden: u8, again: bool) -> (bool, f64) {
+    let mut scenario = scenario::load(&scenario::find("complex").unwrap(), None, &[]).unwrap();
+    scenario.episode.on_collision = OnCollision::Stop;
+    scenario.episode.step_limit = 150;
+    (scenario.network.hidden, scenario.network.recurrence) = (hidden, RecurrenceKind::Elman);
+    let problem = Problem::new(scenario).unwrap();
+    let (pairs, genomes) = (pairs(&problem, count, 4), genomes(&problem, individuals, 4));
+    let random = |pair| evaluation_drive(RunSeed(4), pair);
+    let fleet =
+        Fleet { problem: &problem, genomes: &genomes, pairs: &pairs, random: &random, again };
+    Instructions::of_this_cpu().run(Waiting(&fleet))
+}
+
+#[test]
+fn cars_are_separated_where_they_would_wait_for_the_longest_drive_of_few_pairs() {
+    let (separate, busy) = waiting(300, 5, 12, false);
+    assert!(separate);
+    assert!(busy > 0.8, "{busy}");
+}
+
+#[test]
+fn cars_stay_together_where_hardly_any_would_wait() {
+    assert!(!waiting(20, 200, 12, false).0, "many pairs");
+    assert!(!waiting(100, 5, 12, true).0, "every drive as long as the others");
+    assert!(!waiting(1, 200, 12, false).0, "one individual");
+    assert!(!waiting(Instructions::of_this_cpu().width(), 5, 12, false).0, "nobody is left");
+}
+
+#[test]
+fn cars_stay_together_where_weights_for_each_would_not_fit_the_second_cache() {
+    let separate = waiting(300, 5, 32, false).0;
+    assert_eq!(separate, Instructions::of_this_cpu().width() < MOST_LANES);
 }
 
 #[test]
