@@ -82,22 +82,7 @@ impl<'a> PairSampler<'a> {
         seed: RunSeed,
         generation: u32,
     ) -> Result<Vec<Pair>, NoPair> {
-        self.training_beside(&[], scenario, seed, generation)
-    }
-
-    /// The same with pairs that were kept: they take the places of the last ones.
-    ///
-    /// # Errors
-    ///
-    /// A world in which no pair is found.
-    pub fn training_beside(
-        &self,
-        kept: &[Pair],
-        scenario: &Scenario,
-        seed: RunSeed,
-        generation: u32,
-    ) -> Result<Vec<Pair>, NoPair> {
-        training_in(std::slice::from_ref(self), kept, scenario, seed, generation)
+        training_in(std::slice::from_ref(self), &[], scenario, seed, generation)
     }
 
     /// Pairs that choose the champion: neither trained on nor part of an evaluation.

@@ -28,6 +28,7 @@ pub struct Problem {
     pub world: Arc<World>,
     model: CarModel,
     lookout: Arc<Lookout>,
+    /// Mapped once, by whichever clone needs it first.
     space: Arc<OnceLock<Arc<FreeSpace>>>,
     scaling: Scaling,
     topology: Topology,

@@ -137,7 +137,7 @@ impl<'a> Training<'a> {
         };
         let validation = validation.map_err(|none| no_pair(problem, none))?;
         let search: Box<dyn Optimizer> = Box::new(search);
-        let run = run_id(&problem.scenario, seed);
+        let run = run_id(&problem.scenario, test_drives.made(), seed);
         let (history, kept) = (Vec::new(), Vec::new());
         let coordinates = 2 * count_of_pairs(&problem.scenario) as usize;
         let novelty = spec.novelty.map(|novelty| Novelty::new(novelty, coordinates, seed));
@@ -277,6 +277,15 @@ impl<'a> Training<'a> {
         Ok(self.test_drives.of(&best.genome, 0.0, &pairs, &random, stop))
     }
 
+    /// Shows that the first generation finds its pairs.
+    ///
+    /// # Errors
+    ///
+    /// A world in which no pair is found.
+    pub fn can_begin(&self) -> Result<(), Failure> {
+        self.pairs(0, &[]).map(drop)
+    }
+
     /// Judges the current generation on the current rayon pool and breeds the next.
     ///
     /// # Errors
@@ -355,13 +364,19 @@ impl<'a> Training<'a> {
     }
 }
 
-fn run_id(scenario: &Scenario, seed: RunSeed) -> RunId {
+fn run_id<'a>(
+    scenario: &Scenario,
+    made: impl Iterator<Item = &'a Scenario>,
+    seed: RunSeed,
+) -> RunId {
     let mut scenario = scenario.clone();
     if !depends_on_generations(&scenario) {
         scenario.training.generations = *TrainingSpec::GENERATIONS.start();
     }
     let scenario = fingerprint::scenario(&scenario);
-    Sha256::new().chain_update(seed.0.to_le_bytes()).chain_update(scenario).finalize().into()
+    let own = Sha256::new().chain_update(seed.0.to_le_bytes()).chain_update(scenario);
+    // Another version may make other worlds of the same seed.
+    made.map(fingerprint::scenario).fold(own, Sha256::chain_update).finalize().into()
 }
 
 /// Whether another number of generations makes another run from its second generation on: some
@@ -372,7 +387,9 @@ pub fn depends_on_generations(scenario: &Scenario) -> bool {
 }
 
 fn no_pair(problem: &Problem, none: NoPair) -> Failure {
-    Failure::bad_input(format!("{}: {none}", problem.scenario.name))
+    let Scenario { name, training, .. } = &problem.scenario;
+    let place = if training.worlds.is_some() { "a world of training.worlds" } else { name };
+    Failure::bad_input(format!("{place}: {none}"))
 }
 
 /// Most weights of a population, and most coordinates of an archive: 256 MiB, of which training

@@ -1,6 +1,7 @@
 //! `evosteer train`: the main job, from a scenario to a champion and its report.
 
 mod finish;
+mod worlds;
 
 use finish::Finished;
 
@@ -136,13 +137,16 @@ impl Run {
         }
         let problem = problem(&args.scenario, args.options.preset, &settings)?;
         // Everything that can be refused is, before a folder exists.
-        Training::new(&problem, args.seed)?;
+        let training = Training::new(&problem, args.seed)?;
+        training.can_begin()?;
         can_draw(&problem, &args.scenario, &settings, args.seed)?;
         let folder = match &args.out {
             Some(path) => RunFolder::create(path)?,
             None => RunFolder::choose(Path::new("runs"), &problem.scenario.name, args.seed.0)?,
         };
         manifest(args.seed, &problem.scenario)?.write(&folder)?;
+        worlds::write(&folder, &training)?;
+        drop(training);
         let (checkpoints, _) = Checkpoints::open::<Snapshot>(&folder)?;
         Ok(Self { folder, seed: args.seed, problem, checkpoints, snapshot: None })
     }

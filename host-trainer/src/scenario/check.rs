@@ -296,7 +296,19 @@ fn worlds(scenario: &Scenario, found: &mut Vec<Complaint>) {
         let detail = "found 0 of each kind, expected 1 or more of some kind";
         found.push(Complaint::new("training.worlds.boxes", title, detail).or_at("training.worlds"));
     }
+    if total > WorldsSpec::MOST {
+        let title = "there are too many worlds to train in";
+        let detail = format!("found {total}, expected at most {}", WorldsSpec::MOST);
+        found.push(Complaint::new("training.worlds", title, detail));
+    }
     let title = "`training.worlds` draws pairs in each world";
+    let validation = scenario.training.validation_pairs;
+    if validation > 0 && validation < total {
+        let detail =
+            format!("found {validation} pairs for {total} worlds, expected 0 or {total} or more");
+        let complaint = Complaint::new("training.validation_pairs", title, detail);
+        found.push(complaint.or_at("training.worlds"));
+    }
     match scenario.pairs.source {
         PairSource::Listed(_) => {
             let detail = "found pairs listed for the scenario's own world, expected drawn ones";

@@ -70,7 +70,7 @@ impl Kind {
     }
 
     /// The density at which a world of this many square metres has about 240 walls or discs: beyond,
-    /// beams take several times as long.
+    /// beams take several times as long. For fields of cylinders, with many more, what leaves a way.
     fn quick_density(self, area: f32) -> f32 {
         match self {
             // Of 1.5 m² and four walls each.
@@ -79,7 +79,8 @@ impl Kind {
             Self::Pillars => 80.0 / area,
             // Eight walls for each room of (0.2 m / density)².
             Self::Rooms => (1.2 / area).sqrt(),
-            Self::BarnLike => 1.0,
+            // Nearly every denser field blocks the way.
+            Self::BarnLike => 0.3,
         }
     }
 
@@ -161,6 +162,14 @@ impl From<RecipeError> for Failure {
     }
 }
 
+/// As options of `evosteer scenario generate`.
+impl fmt::Display for Recipe {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { kind, seed, size: [width, height], density } = self;
+        write!(f, "--kind {kind} --seed {seed} --size {width}x{height} --density {density}")
+    }
+}
+
 impl Recipe {
     /// Shortest and longest side, metres.
     pub const SIZE: [f32; 2] = [3.0, 50.0];
@@ -169,7 +178,8 @@ impl Recipe {
     pub const LONGEST_BARN: f32 = 20.0;
 
     /// A world of this kind with sides in this range, metres. Its density is from a quarter of the
-    /// usual one to half as much again, or so much that beams find its obstacles quickly.
+    /// usual one to half as much again, within what its kind can have, or less where beams would find
+    /// its obstacles slowly.
     pub fn drawn(
         kind: Kind,
         [shortest, longest]: [f32; 2],
@@ -184,8 +194,9 @@ impl Recipe {
         let high = high.min(usual * 1.5).min(kind.quick_density(size[0] * size[1]));
         let density = random.within(low, high.max(low));
         // As short as somebody would type them, to see the world.
+        let seed = random.index(1_000_000_000);
         let density = (density * 100.0).round() / 100.0;
-        Self { kind, seed: RunSeed(random.index(1 << 32) as u64), size, density }
+        Self { kind, seed: RunSeed(seed as u64), size, density }
     }
 
     /// Makes the world.
@@ -219,12 +230,8 @@ impl Recipe {
     /// Those of [`Recipe::scenario`].
     pub fn toml(&self) -> Result<String, RecipeError> {
         let scenario = self.scenario()?;
-        let [width, height] = self.size;
-        let note = format!(
-            "# Made by: evosteer scenario generate --kind {} --seed {} --size {width}x{height} --density {}\n\n",
-            self.kind, self.seed, self.density
-        );
-        Ok(note + &to_toml_beside_paper(&scenario))
+        Ok(format!("# Made by: evosteer scenario generate {self}\n\n")
+            + &to_toml_beside_paper(&scenario))
     }
 
     fn check(&self) -> Result<(), RecipeError> {

@@ -164,6 +164,7 @@ const GEOMETRY: &[&str] = &[
     "[training.worlds]\nboxes = 6",
     "[pairs]\ncount = 30\ncount_end = 5\nresample = true\nmine = 0.5\n[training.worlds]\nrooms = 6",
     "[training.worlds]\nrooms = 6\nside_m = [12, 8]",
+    "[pairs]\ncount = 90\n[training]\nvalidation_pairs = 40\n[training.worlds]\nrooms = 50\nboxes = 20",
     "[pairs]\nlist = [{ start = [1, 1, 0], goal = [8, 8] }]\n[training.worlds]\nrooms = 1",
     "[pairs]\ncount_end = 20",
     "[pairs]\nmine = 0.5\nresample = false",

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::pairs::PairSampler;
 use crate::problem::Problem;
 use crate::scenario::generate::{Kind, Recipe};
-use crate::scenario::{PairSource, Scenario, WorldsSpec};
+use crate::scenario::{Scenario, WorldsSpec};
 use crate::seed::{Purpose, RunSeed};
 use crate::stress;
 
@@ -55,13 +55,15 @@ pub(super) fn recipes(worlds: WorldsSpec, seed: RunSeed) -> impl Iterator<Item =
 
 /// A world for the scenario's car and target.
 fn made(recipe: &Recipe, scenario: &Scenario) -> Result<Problem, Failure> {
-    let made = recipe.scenario()?;
+    let made = recipe
+        .scenario()
+        .map_err(|error| Failure::bad_input(format!("training.worlds: {recipe}: {error}")))?;
     let mut scenario =
         Scenario { name: made.name, description: made.description, ..scenario.clone() };
     let target_radius = scenario.world.target_radius;
     scenario.world = made.world;
     scenario.world.target_radius = target_radius;
-    scenario.pairs.min_distance = scenario.pairs.min_distance.min(made.pairs.min_distance);
-    debug_assert!(matches!(scenario.pairs.source, PairSource::Drawn { .. }), "checked on loading");
+    let [width, height] = scenario.world.bounds.size();
+    scenario.pairs.min_distance = scenario.pairs.min_distance.min(0.5 * width.min(height));
     Problem::new(scenario)
 }

@@ -5,11 +5,11 @@ use crate::episode::Outcome;
 use crate::failure::Failure;
 use crate::pairs::PairSampler;
 use crate::problem::Problem;
-use crate::scenario::Pair;
+use crate::scenario::{Pair, Scenario};
 use crate::seed::{RunSeed, Stream};
 use crate::signals::StopFlag;
 use crate::vector::Instructions;
-use crate::wide::Fleet;
+use crate::wide::{Drives, Fleet};
 use rayon::prelude::*;
 
 /// Drives in each world with the scenario's car, and with the same under stress for a share of
@@ -17,6 +17,7 @@ use rayon::prelude::*;
 #[derive(Debug)]
 pub(super) struct TestDrives {
     grounds: Vec<Ground>,
+    are_made: bool,
 }
 
 /// The drives of one car in one world: who, and the places of its pairs.
@@ -27,7 +28,14 @@ struct Part<'a> {
 
 impl TestDrives {
     pub(super) fn new(problem: &Problem, seed: RunSeed) -> Result<Self, Failure> {
-        Ok(Self { grounds: grounds(problem, seed)? })
+        let are_made = problem.scenario.training.worlds.is_some();
+        Ok(Self { grounds: grounds(problem, seed)?, are_made })
+    }
+
+    /// The scenarios of the worlds that the run made for itself.
+    pub(super) fn made(&self) -> impl Iterator<Item = &Scenario> {
+        let scenarios = self.grounds.iter().map(|ground| &ground.as_described.scenario);
+        scenarios.filter(|_| self.are_made)
     }
 
     /// What draws pairs, world by world.
@@ -47,38 +55,42 @@ impl TestDrives {
         stop: &StopFlag,
     ) -> Option<Vec<Outcome>> {
         let parts = self.parts(pairs.len(), share);
-        let drive = |part: &Part<'_>, threads| {
-            let chosen: Vec<Pair> = part.places.iter().map(|place| pairs[*place]).collect();
-            let random = |index: u32| random(part.places[index as usize] as u32);
-            let fleet = Fleet {
-                problem: part.problem,
-                genomes,
-                pairs: &chosen,
-                random: &random,
-                again: false,
-            };
-            let instructions = Instructions::in_use();
-            let drives = if threads == 1 {
-                fleet.drive_here(instructions, stop)
-            } else {
-                fleet.drive(instructions, stop)
-            };
-            Some(drives?.outcomes)
-        };
-        let threads = rayon::current_num_threads();
-        // Every fleet ends with cars that wait for its longest drive: many small ones wait side
-        // by side.
-        let driven: Vec<Option<Vec<Outcome>>> = if parts.len() >= 4 * threads {
-            parts.par_iter().map(|part| drive(part, 1)).collect()
-        } else {
-            parts.iter().map(|part| drive(part, threads)).collect()
-        };
-        let individuals = genomes.len() / self.grounds[0].as_described.topology().weights();
+        let length = self.grounds[0].as_described.topology().weights();
+        let individuals = genomes.len() / length;
         let mut all = vec![Outcome::default(); individuals * pairs.len()];
-        for (part, outcomes) in parts.iter().zip(driven) {
-            for (index, outcome) in outcomes?.into_iter().enumerate() {
+        let instructions = Instructions::in_use();
+        let mut keep = |part: &Part<'_>, first: usize, outcomes: Vec<Outcome>| {
+            for (index, outcome) in outcomes.into_iter().enumerate() {
                 let (individual, place) = (index / part.places.len(), index % part.places.len());
-                all[individual * pairs.len() + part.places[place]] = outcome;
+                all[(first + individual) * pairs.len() + part.places[place]] = outcome;
+            }
+        };
+        if let [_] = self.grounds[..] {
+            for part in &parts {
+                let drive = |fleet: Fleet<'_>| fleet.drive(instructions, stop);
+                keep(part, 0, part.drives(genomes, pairs, random, drive)?);
+            }
+        } else {
+            // At the end of a fleet cars wait for its longest drive. Fleets of many worlds are small
+            // and do so side by side, each on one thread.
+            let pieces = (4 * rayon::current_num_threads()).div_ceil(parts.len());
+            let some = individuals.div_ceil(pieces);
+            let pieces: Vec<(&Part<'_>, usize)> = parts
+                .iter()
+                .flat_map(|part| (0..individuals).step_by(some).map(move |first| (part, first)))
+                .collect();
+            let driven: Vec<Option<Vec<Outcome>>> = pieces
+                .par_iter()
+                .map(|&(part, first)| {
+                    let genomes = &genomes[first * length..];
+                    let genomes = &genomes[..genomes.len().min(some * length)];
+                    part.drives(genomes, pairs, random, |fleet| {
+                        fleet.drive_here(instructions, stop)
+                    })
+                })
+                .collect();
+            for ((part, first), outcomes) in pieces.into_iter().zip(driven) {
+                keep(part, first, outcomes?);
             }
         }
         Some(all)
@@ -88,10 +100,15 @@ impl TestDrives {
     fn parts(&self, pairs: usize, share: f64) -> Vec<Part<'_>> {
         let worlds = self.grounds.len();
         let mut parts = Vec::new();
+        // Counted through all worlds, so that they have their share together.
+        let mut count = 0;
         for (world, Ground { as_described, stressed }) in self.grounds.iter().enumerate() {
-            let places = (world..pairs).step_by(worlds);
-            let (worse, same): (Vec<usize>, Vec<usize>) =
-                places.partition(|place| stressed.is_some() && is_stressed(place / worlds, share));
+            let (mut worse, mut same) = (Vec::new(), Vec::new());
+            for place in (world..pairs).step_by(worlds) {
+                let is_worse = stressed.is_some() && is_stressed(count, share);
+                if is_worse { &mut worse } else { &mut same }.push(place);
+                count += 1;
+            }
             parts.push(Part { problem: as_described, places: same });
             parts.extend(stressed.iter().map(|problem| Part { problem, places: worse.clone() }));
         }
@@ -100,7 +117,24 @@ impl TestDrives {
     }
 }
 
-/// Whether the pair at this place of its world is driven under stress: of the first `n` places
+impl Part<'_> {
+    /// Its drives by all of these individuals, as `drive` makes them.
+    fn drives(
+        &self,
+        genomes: &[f32],
+        pairs: &[Pair],
+        random: &(dyn Fn(u32) -> Stream + Sync),
+        drive: impl FnOnce(Fleet<'_>) -> Option<Drives>,
+    ) -> Option<Vec<Outcome>> {
+        let chosen: Vec<Pair> = self.places.iter().map(|place| pairs[*place]).collect();
+        let random = |index: u32| random(self.places[index as usize] as u32);
+        let problem = self.problem;
+        let fleet = Fleet { problem, genomes, pairs: &chosen, random: &random, again: false };
+        drive(fleet).map(|drives| drives.outcomes)
+    }
+}
+
+/// Whether the pair at this place is driven under stress: of the first `n` places
 /// `share * n` are, rounded down.
 fn is_stressed(place: usize, share: f64) -> bool {
     let before = |places: usize| (places as f64 * share) as u64;

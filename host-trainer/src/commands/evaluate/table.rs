@@ -39,14 +39,21 @@ pub(super) fn print(
     }
     let (mut reports, mut rows) = (Vec::new(), Vec::new());
     let (mut reached, mut clean) = (Share { count: 0, of: 0 }, Share { count: 0, of: 0 });
-    for scenario in scenarios {
-        let task = Task::new(args, champion, scenario, output)?;
+    // Everything that can be refused is, before anything drives.
+    let tasks: Result<Vec<Task<'_>>, Failure> =
+        scenarios.iter().map(|typed| Task::new(args, champion, typed, output)).collect();
+    let tasks = tasks?;
+    let mut names: Vec<&str> = tasks.iter().map(|task| &*task.problem.scenario.name).collect();
+    names.sort_unstable();
+    let are_different = names.windows(2).all(|two| two[0] != two[1]);
+    for (typed, task) in scenarios.iter().zip(tasks) {
         let evaluation = task.evaluation(champion);
         let shares = [evaluation.reached_share(), evaluation.clean_share()];
         for (all, share) in [&mut reached, &mut clean].into_iter().zip(shares) {
             *all = Share { count: all.count + share.count, of: all.of + share.of };
         }
-        rows.push((task.problem.scenario.name.clone(), shares));
+        let name = if are_different { &task.problem.scenario.name } else { typed };
+        rows.push((name.clone(), shares));
         reports.push(task.report(champion, evaluation, None));
     }
     rows.push((format!("all {}", scenarios.len()), [reached, clean]));

@@ -8,7 +8,7 @@ use crate::evaluation::{self, Evaluation};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::problem::{Problem, evaluation_drive, training_drive};
-use crate::report::{data::Drive, page, plots, tasks_svg};
+use crate::report::{data::Drive, page, plots};
 use crate::run_folder::RunFolder;
 use crate::scenario::Pair;
 use crate::seed::{RunSeed, Stream};
@@ -151,7 +151,6 @@ pub(super) fn finish(
     };
     let unseen = Evaluation::summary(&outcomes, seed);
     draw(folder, problem, seed, training, best, films, &on_pairs, &unseen)?;
-    draw_worlds(folder, training)?;
 
     let path = |name: &str| folder.join(name).display().to_string();
     let champion = BlobFile::read(&folder.join(RunFolder::CHAMPION))?;
@@ -240,17 +239,4 @@ fn draw(
     let title = format!("{}, seed {seed}", problem.scenario.name);
     let data = picture::report(problem, title, summary, films.drives, history, provenance);
     folder.write(RunFolder::REPORT, page::render(&data).as_bytes())
-}
-
-/// The worlds that the run made for itself, as scenarios to drive in and as pictures.
-fn draw_worlds(folder: &RunFolder, training: &Training<'_>) -> Result<(), Failure> {
-    for recipe in training.worlds() {
-        let problem = Problem::new(recipe.scenario()?)?;
-        let svg = tasks_svg(&picture::scene(&problem), &picture::body(&problem), &[]);
-        let name = &problem.scenario.name;
-        for (ending, text) in [("toml", recipe.toml()?), ("svg", svg)] {
-            folder.write(&format!("{}/{name}.{ending}", RunFolder::WORLDS), text.as_bytes())?;
-        }
-    }
-    Ok(())
 }
