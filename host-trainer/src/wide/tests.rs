@@ -350,10 +350,11 @@ fn cars_stay_together_where_weights_for_each_would_not_fit_the_second_cache() {
 
 #[test]
 fn the_outcomes_are_the_same_on_any_number_of_threads() {
-    let scenario = scenario::load(&scenario::find("obstacles").unwrap(), None, &[]).unwrap();
+    let mut scenario = scenario::load(&scenario::find("obstacles").unwrap(), None, &[]).unwrap();
+    scenario.episode.on_collision = OnCollision::Stop;
     let problem = Problem::new(scenario).unwrap();
     let pairs = pairs(&problem, 6, 8);
-    let genomes = genomes(&problem, 50, 8);
+    let genomes = genomes(&problem, 150, 8);
     let random = |pair| evaluation_drive(RunSeed(8), pair);
     let fleet = Fleet {
         problem: &problem,
@@ -367,7 +368,7 @@ fn the_outcomes_are_the_same_on_any_number_of_threads() {
         pool.install(|| fleet.drive(Instructions::of_this_cpu(), &StopFlag::default())).unwrap()
     };
     let one = on(1);
-    assert_eq!(one.outcomes.len(), 300);
+    assert_eq!(one.outcomes.len(), 900);
     assert_eq!([on(2), on(5)], [one.clone(), one]);
 }
 
