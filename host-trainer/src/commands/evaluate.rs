@@ -29,7 +29,7 @@ pub struct EvaluateArgs {
 
     /// A scenario: the name of a shipped one, a file, or a run folder for its scenario; of several, a
     /// table
-    #[arg(required = true)]
+    #[arg(required = true, value_name = "SCENARIO")]
     scenarios: Vec<String>,
 
     /// How many pairs to draw

@@ -138,8 +138,8 @@ impl Run {
         let problem = problem(&args.scenario, args.options.preset, &settings)?;
         // Everything that can be refused is, before a folder exists.
         let training = Training::new(&problem, args.seed)?;
-        training.can_begin()?;
         can_draw(&problem, &args.scenario, &settings, args.seed)?;
+        training.can_begin()?;
         let folder = match &args.out {
             Some(path) => RunFolder::create(path)?,
             None => RunFolder::choose(Path::new("runs"), &problem.scenario.name, args.seed.0)?,

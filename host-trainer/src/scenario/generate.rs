@@ -177,9 +177,9 @@ impl Recipe {
     /// Longest side of a world like BARN's, metres: it has 20 cylinders per square metre.
     pub const LONGEST_BARN: f32 = 20.0;
 
-    /// A world of this kind with sides in this range, metres. Its density is from a quarter of the
-    /// usual one to half as much again, within what its kind can have, or less where beams would find
-    /// its obstacles slowly.
+    /// A world of this kind with sides in this range, metres, as often up to twice the shortest as
+    /// from there to four times that. Its density is from a quarter of the usual one to twice that,
+    /// within what its kind can have, or less where beams would find its obstacles slowly.
     pub fn drawn(
         kind: Kind,
         [shortest, longest]: [f32; 2],
@@ -187,11 +187,15 @@ impl Recipe {
     ) -> Self {
         let longest =
             if kind == Kind::BarnLike { longest.min(Self::LONGEST_BARN) } else { longest };
-        let size = [(); 2].map(|()| round(random.within(shortest.min(longest), longest)));
+        let shortest = shortest.min(longest);
+        let size = [(); 2].map(|()| {
+            let side = shortest * libm::powf(longest / shortest, random.unit());
+            round(side.clamp(shortest, longest))
+        });
         let [low, high] = kind.densities();
         let usual = kind.usual_density();
         let low = low.max(usual * 0.25);
-        let high = high.min(usual * 1.5).min(kind.quick_density(size[0] * size[1]));
+        let high = high.min(usual * 2.0).min(kind.quick_density(size[0] * size[1]));
         let density = random.within(low, high.max(low));
         // As short as somebody would type them, to see the world.
         let seed = random.index(1_000_000_000);
@@ -346,6 +350,27 @@ mod tests {
             "box".parse::<Kind>().unwrap_err(),
             "no kind `box`, expected boxes, pillars, rooms or barn-like"
         );
+    }
+
+    /// What a seed means in every release.
+    #[test]
+    fn the_worlds_that_a_run_makes_for_itself_are_these() {
+        let drawn = Kind::ALL.map(|kind| {
+            let mut random = RunSeed(1).stream(Purpose::TrainingWorld, 0, kind as u32);
+            Recipe::drawn(kind, [8.0, 30.0], &mut random).to_string()
+        });
+        insta::assert_snapshot!("drawn", drawn.join("\n"));
+    }
+
+    #[test]
+    fn a_drawn_world_of_any_kind_and_size_can_be_made() {
+        for index in 0..40 {
+            for kind in Kind::ALL {
+                let mut random = RunSeed(7).stream(Purpose::TrainingWorld, 0, index);
+                let recipe = Recipe::drawn(kind, [5.0, 30.0], &mut random);
+                recipe.scenario().unwrap_or_else(|error| panic!("{recipe}: {error}"));
+            }
+        }
     }
 
     #[test]

@@ -212,6 +212,7 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
             if let PairSource::Drawn { count, .. } = pairs.source
                 && count.min(pairs.count_end.unwrap_or(count)) >= 40
                 && pairs.mine == 0.0
+                && !(1..40).contains(&training.validation_pairs)
             {
                 let side = [5.0 + episode.period, 5.0 + 2.0 * episode.period];
                 training.worlds =

@@ -146,7 +146,7 @@ mod tests {
     use super::*;
     use crate::disturbances::Disturbances;
     use crate::problem::training_drive;
-    use crate::scenario::{PairSource, Preset};
+    use crate::scenario::{self, PairSource, Preset};
     use crate::stress;
 
     #[test]
@@ -158,6 +158,21 @@ mod tests {
         assert_eq!(places(0.25), "...!...!");
         assert_eq!(places(0.5), ".!.!.!.!");
         assert_eq!(places(1.0), "!!!!!!!!");
+    }
+
+    #[test]
+    fn all_worlds_together_have_the_share_of_stressed_drives() {
+        for worlds in ["", "[training.worlds]\nboxes = 7"] {
+            let text = format!("[pairs]\ncount = 9\n[training]\nstressed_share = 0.5\n{worlds}");
+            let source = scenario::Source::new("a.toml", text, std::path::Path::new(""));
+            let problem = Problem::new(scenario::load(&source, None, &[]).unwrap()).unwrap();
+            let drives = TestDrives::new(&problem, RunSeed(1)).unwrap();
+            let parts = drives.parts(9, 0.5);
+            let is_worse = |part: &&Part<'_>| part.problem.scenario.vehicle.delay_periods > 0;
+            let stressed: usize = parts.iter().filter(is_worse).map(|part| part.places.len()).sum();
+            let all: usize = parts.iter().map(|part| part.places.len()).sum();
+            assert_eq!((stressed, all), (4, 9), "{worlds}");
+        }
     }
 
     #[test]

@@ -44,6 +44,27 @@ fn a_used_folder_is_never_overwritten() {
     assert!(before == [bench.all_files("run"), bench.all_files("mine")]);
 }
 
+/// Its worlds are scenarios like any other, and the report says where it was trained.
+#[test]
+fn a_run_in_random_worlds_leaves_them_in_its_folder() {
+    let bench = Bench::new();
+    let worlds = ["training.worlds.boxes=2", "training.worlds.rooms=1", "pairs.count=6"];
+    let settings = worlds.map(|setting| format!("--set={setting}"));
+    bench.train("open", "run", &settings.each_ref().map(String::as_str)).ends_in(0);
+    let files = bench.all_files("run");
+    let mut names: Vec<&str> =
+        files.keys().filter_map(|name| name.strip_prefix("worlds/")).collect();
+    names.retain(|name| name.ends_with(".toml"));
+    assert_eq!(names.len(), 3, "{:?}", files.keys());
+    for name in names {
+        assert!(files.contains_key(&format!("worlds/{}", name.replace(".toml", ".svg"))));
+        bench.say(&format!("evaluate run run/worlds/{name} --pairs 5")).ends_in(0);
+    }
+    let report = String::from_utf8_lossy(&files["report.html"]).into_owned();
+    assert!(report.contains("It was trained in random worlds"), "{report:.600}");
+    bench.say("evaluate run run --pairs 5").ends_in(0);
+}
+
 #[test]
 fn runs_without_out_get_a_folder_of_their_own() {
     let bench = Bench::new();

@@ -311,11 +311,28 @@ fn touching_discs(offset: f32, random: &mut Stream) -> Vec<Disc<f32>> {
         let radius = random.within(0.02, 0.5);
         let apart = radius * [2.0, 2.0, 1.7, 2.0001][random.index(4)];
         for _ in 0..1 + random.index(9) {
+            let radius = if random.chance(0.2) { radius * 0.5 } else { radius };
             discs.push(Disc { centre: (offset + x, offset + y), radius });
             (x, y) = (x + dx * apart, y + dy * apart);
         }
     }
     discs
+}
+
+/// From a place before a row of beads a beam meets one or two of them, and nothing of the second row.
+#[test]
+fn discs_that_touch_hide_what_is_behind_them() {
+    let longest_list = |radius: f32| {
+        let bead = |y: f32| (-40..40).map(move |n| Disc { centre: (n as f32 * 0.15, y), radius });
+        let discs = bead(1.0).chain(bead(1.5)).chain(bead(2.0)).collect();
+        let mut pair = Pair::new(Vec::new(), discs, Fan::new(&mounts(USUAL), 10.0), BODY);
+        for step in 0..20 {
+            pair.compare(&Pose::new(step as f32 * 0.05, 0.0, PI / 2.0 + step as f32 * 0.01));
+        }
+        *pair.lookout.survey().seen.last().unwrap()
+    };
+    let [touching, apart] = [0.075, 0.05].map(longest_list);
+    assert!(touching * 2 < apart, "{touching} where they touch, {apart} where they do not");
 }
 
 proptest! {
@@ -330,7 +347,12 @@ proptest! {
         let discs = touching_discs(offset, &mut random);
         prop_assume!(!discs.is_empty());
         let mounts = mounts(USUAL);
-        let mut pair = Pair::new(Vec::new(), discs.clone(), Fan::new(&mounts, range), BODY);
+        let mut walls = Vec::new();
+        for _ in 0..random.index(3) {
+            let mut place = || offset + random.within(-3.0, 7.0);
+            walls.push(Segment { a: (place(), place()), b: (place(), place()) });
+        }
+        let mut pair = Pair::new(walls, discs.clone(), Fan::new(&mounts, range), BODY);
         for _ in 0..80 {
             let (mut x, mut y) =
                 (offset + random.within(-3.0, 7.0), offset + random.within(-3.0, 7.0));

@@ -126,7 +126,8 @@ fn any_number_of_threads_gives_the_same_bytes() {
 
 #[test]
 fn a_run_goes_on_from_its_snapshot_as_if_nothing_had_happened() {
-    for (settings, before) in [(EXACT, 2), (NOISY, 2), (CHANGING, 9), (&stressed(), 2), (NOVEL, 4)]
+    for (settings, before) in
+        [(EXACT, 2), (NOISY, 2), (CHANGING, 9), (&stressed(), 2), (&elsewhere(), 2), (NOVEL, 4)]
     {
         let problem = Problem::new(from_toml(settings)).unwrap();
         let mut first = Training::new(&problem, RunSeed(5)).unwrap();
