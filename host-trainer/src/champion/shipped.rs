@@ -30,7 +30,7 @@ macro_rules! champion {
 
 /// Every champion that comes with the program; the first is shown where none is asked for.
 pub const CHAMPIONS: &[Champion] =
-    &[champion!("open"), champion!("obstacles"), champion!("complex")];
+    &[champion!("open"), champion!("obstacles"), champion!("complex"), champion!("depot")];
 
 impl Champion {
     /// The champion of this scene.
