@@ -111,7 +111,7 @@ const COMMAND_LINES: &[&str] = &[
     "evaluate run open --pairs 20 --drivable --set episode.step_limit=3",
     "replay run open --pairs 101",
     "replay run open --out",
-    "demo depot",
+    "demo medium_maze",
     "demo --seed one",
     "export run",
     "export run --format elf",
