@@ -94,8 +94,8 @@ impl Films {
             Pairs::Training if self.drives.len() == self.of => String::new(),
             Pairs::Training => format!(" The first {} are shown.", counted(shown, "training pair")),
             Pairs::Unseen => format!(
-                " It was trained in random worlds, which lie in `{}`; shown are drives of the \
-                 first {} in this one.",
+                " It was trained in random worlds, which lie in the folder {} beside this page; shown \
+                 are drives of the first {} in this one.",
                 RunFolder::WORLDS,
                 counted(shown, "unseen pair")
             ),
