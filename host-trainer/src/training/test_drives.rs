@@ -17,7 +17,6 @@ use rayon::prelude::*;
 #[derive(Debug)]
 pub(super) struct TestDrives {
     grounds: Vec<Ground>,
-    are_made: bool,
 }
 
 /// The drives of one car in one world: who, and the places of its pairs.
@@ -28,14 +27,13 @@ struct Part<'a> {
 
 impl TestDrives {
     pub(super) fn new(problem: &Problem, seed: RunSeed) -> Result<Self, Failure> {
-        let are_made = problem.scenario.training.worlds.is_some();
-        Ok(Self { grounds: grounds(problem, seed)?, are_made })
+        Ok(Self { grounds: grounds(problem, seed)? })
     }
 
     /// The scenarios of the worlds that the run made for itself.
     pub(super) fn made(&self) -> impl Iterator<Item = &Scenario> {
         let scenarios = self.grounds.iter().map(|ground| &ground.as_described.scenario);
-        scenarios.filter(|_| self.are_made)
+        scenarios.filter(|scenario| scenario.training.worlds.is_some())
     }
 
     /// What draws pairs, world by world.

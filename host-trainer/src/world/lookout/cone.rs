@@ -92,24 +92,20 @@ impl<'a> Cone<'a> {
         }
         let mut chain = Chain { walls: [seed; LONGEST], count: 1 };
         let mut farthest = 0.0_f64;
-        let mut sides = [0.0; 2];
-        for (first_end, side) in sides.iter_mut().enumerate() {
-            let (mut wall, mut end) = (seed, first_end);
-            loop {
-                let point = met[wall].shape.ends[end];
-                *side = self.side(point);
-                if *side != 0.0 {
-                    break;
-                }
+        let sides = free_ends(
+            met,
+            seed,
+            |point| self.side(point),
+            |point| {
                 let fits = |next: usize| !chain.walls().contains(&next);
                 let (next, entry) = self.next(met, point, fits)?;
                 farthest = farthest.max(self.farthest(point));
                 *chain.walls.get_mut(chain.count)? = next;
                 chain.count += 1;
                 walked[next] = true;
-                (wall, end) = (next, 1 - entry);
-            }
-        }
+                Some((next, entry))
+            },
+        )?;
         if sides[0] == sides[1] {
             return None;
         }
@@ -229,6 +225,30 @@ impl<'a> Cone<'a> {
         let way = low.abs().min(high.abs()) / fastest;
         (way.max(candidate.distance), candidate.rounding.ahead / slowest)
     }
+}
+
+/// Follows a chain from the seed in both directions until a point lies on a side, and says on which;
+/// `next` goes on from a point: to which wall, and which of its ends lies there.
+pub(super) fn free_ends(
+    met: &[&Candidate],
+    seed: usize,
+    side: impl Fn(Point) -> f64,
+    mut next: impl FnMut(Point) -> Option<(usize, usize)>,
+) -> Option<[f64; 2]> {
+    let mut sides = [0.0; 2];
+    for (first_end, found) in sides.iter_mut().enumerate() {
+        let (mut wall, mut end) = (seed, first_end);
+        loop {
+            let point = met[wall].shape.ends[end];
+            *found = side(point);
+            if *found != 0.0 {
+                break;
+            }
+            let (joined, entry) = next(point)?;
+            (wall, end) = (joined, 1 - entry);
+        }
+    }
+    Some(sides)
 }
 
 fn least<const N: usize>(values: [f64; N]) -> f64 {

@@ -10,7 +10,7 @@
 //! [`Limits::slack`]: super::rounding::Limits::slack
 
 use super::candidate::Candidate;
-use super::cone::Cone;
+use super::cone::{Cone, free_ends};
 use super::rounding::MOST_ERROR;
 use crate::world::shape::{Point, cross, dot, minus};
 
@@ -77,21 +77,17 @@ impl Cone<'_> {
         is_before: impl Fn(usize) -> bool,
     ) -> Option<u64> {
         let mut chain = 1_u64 << seed;
-        let mut sides = [0.0; 2];
-        for (first_end, side) in sides.iter_mut().enumerate() {
-            let (mut wall, mut end) = (seed, first_end);
-            loop {
-                let point = met[wall].shape.ends[end];
-                *side = self.side_of_lines(point, shaded);
-                if *side != 0.0 {
-                    break;
-                }
+        let sides = free_ends(
+            met,
+            seed,
+            |point| self.side_of_lines(point, shaded),
+            |point| {
                 let fits = |place: usize| chain >> place & 1 == 0 && is_before(place);
                 let (next, entry) = self.next(met, point, fits)?;
                 chain |= 1 << next;
-                (wall, end) = (next, 1 - entry);
-            }
-        }
+                Some((next, entry))
+            },
+        )?;
         (sides[0] != sides[1]).then_some(chain)
     }
 
