@@ -15,6 +15,8 @@
 //! | `beams` | the tests, many beams side by side |
 //! | `shelf` | what is found once for each cell |
 //! | `words`, `asked` | how it is kept in few bytes, and read for many beams at once |
+//! | `legends` | what names mean where obstacles are many |
+//! | `kept` | what does not fit into these |
 //! | `cell`, `candidate`, `cone`, `discs`, `shade`, `reach`, `rounding` | how it is found, and what may be left out |
 
 mod asked;
@@ -25,6 +27,8 @@ mod cone;
 mod discs;
 mod fan;
 mod grid;
+mod kept;
+mod legends;
 mod reach;
 mod rounding;
 mod shade;
@@ -41,7 +45,7 @@ use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
 use grid::{Grid, part_of_turn};
 use rounding::MOST_ERROR;
-use shelf::{Question, Shelf};
+use shelf::{Question, Shelf, Sure};
 use std::sync::Arc;
 
 pub use fan::Fan;
@@ -95,7 +99,7 @@ impl Lookout {
                     shelves = self.shelf.shelves(self.grid.locate(rays[car][beam].origin));
                 }
                 let bin = part_of_turn::<V, BINS>(fan.angle(beam, &poses[car]));
-                self.shelf.ask_seen(&mut asked, car * BEAMS + beam, shelves, bin);
+                self.shelf.ask_seen(&mut asked, car * BEAMS + beam, &shelves, bin);
                 // What the beams between them ask for mostly lies in the same lines of the cache.
                 if beam % 2 == 0 {
                     self.shelf.fetch_seen::<V, Q>(&asked, car * BEAMS + beam);
@@ -146,7 +150,7 @@ impl Lookout {
         for car in 0..N {
             let shelves = self.shelf.shelves(self.grid.locate((poses[car].x, poses[car].y)));
             sectors[car] = part_of_turn::<V, SECTORS>(poses[car].heading);
-            self.shelf.ask_near(&mut asked, car, shelves, sectors[car]);
+            self.shelf.ask_near(&mut asked, car, &shelves, sectors[car]);
         }
         self.shelf.answer_near::<V, N>(&mut asked);
         let Body { rear, front, half_width } = self.body;
@@ -198,9 +202,13 @@ impl Lookout {
             beams.any(*row);
         });
         let mut reach = self.range;
-        if let Some(joint) = sure {
+        if let Some(sure) = sure {
             let nearest = beams.nearest(self.range);
-            if !(joint && beams.doubtful(self.slack)) {
+            let is_sure = match sure {
+                Sure::Within(beyond) => nearest.min(self.range) <= beyond,
+                Sure::UnlessDoubtful => !beams.doubtful(self.slack),
+            };
+            if is_sure {
                 return nearest;
             }
             // What was left out and is computed as nearer is met before this.

@@ -92,6 +92,8 @@ impl Pair {
 
     fn compare(&mut self, pose: &Pose<f32>) {
         let seen = self.look(pose);
+        // The first car in a cell has it looked at; others read what was written down.
+        assert_eq!(self.look(pose).map(f32::to_bits), seen.map(f32::to_bits), "again at {pose:?}");
         for (beam, (ray, seen)) in self.fan.rays(pose).iter().zip(seen).enumerate() {
             let expected = self.truth.distance(ray, self.fan.range());
             let same = seen.to_bits() == expected.to_bits()
@@ -223,6 +225,15 @@ impl Scene {
         walls
     }
 
+    /// A row of posts along one side: more than there are names.
+    fn posts(&self) -> impl Iterator<Item = Segment<f32>> {
+        let (size, (x, y)) = (self.size, self.offset);
+        (0..260).map(move |post| {
+            let (x, y) = (x + size * post as f32 / 260.0, y + size * 1.2);
+            Segment { a: (x, y), b: (x + 1e-3 * size, y) }
+        })
+    }
+
     fn discs(&mut self) -> Vec<Disc<f32>> {
         let count = self.stream.index(4);
         (0..count)
@@ -278,9 +289,13 @@ proptest! {
             Just([0.0, 0.0, 72.0, 144.0, -144.0]),
         ],
         offset in prop_oneof![Just((0.0_f32, 0.0_f32)), (-0.4_f32..0.4, -0.2_f32..0.2)],
+        crowded: bool,
     ) {
         let mut scene = Scene { stream: random(seed), size, offset: (far, -0.5 * far) };
-        let (walls, discs) = (scene.walls(), scene.discs());
+        let (mut walls, discs) = (scene.walls(), scene.discs());
+        if crowded {
+            walls.extend(scene.posts());
+        }
         let mut mounts = mounts(degrees);
         mounts[0].x = offset.0;
         mounts[3].x = 0.5 * offset.0;
@@ -290,6 +305,25 @@ proptest! {
             let pose = scene.pose(&walls, &mounts);
             pair.compare(&pose);
         }
+    }
+}
+
+/// In a large world, one with more obstacles than names.
+#[test]
+fn a_place_with_as_many_obstacles_around_it_as_there_are_names_is_like_any_other() {
+    for around in [254, 255, 256] {
+        let post = |at: usize, y: f32| {
+            let x = at as f32 * 0.03;
+            Segment { a: (x, y), b: (x + 0.01, y) }
+        };
+        let near = (0..around).map(|at| post(at, 2.0));
+        let walls = near.chain((0..300).map(|at| post(at, 60.0))).collect();
+        let mut pair = Pair::new(walls, Vec::new(), Fan::new(&mounts(USUAL), 10.0), BODY);
+        for step in 0..100 {
+            let x = step as f32 * 0.07;
+            pair.compare(&Pose::new(x, (step % 5) as f32 * 0.6, 0.5 + 0.02 * step as f32));
+        }
+        assert!(pair.seen > 50, "{around}: {} beams met something", pair.seen);
     }
 }
 

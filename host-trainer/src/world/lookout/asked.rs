@@ -1,9 +1,10 @@
 //! Many questions at once, and the words that answer them.
 
 use super::beams::Row;
+use super::legends::Meanings;
 use super::words::{AllWords, JOINT, NAME, NAMES, UNKNOWN, Word};
 use crate::vector::{MOST_LANES, RowOfLane, Vector, fetch, ones};
-use std::sync::atomic::{AtomicU16, AtomicU32, Ordering};
+use std::sync::atomic::AtomicU16;
 
 /// Questions of `N` times several robots, and the words that answer them.
 ///
@@ -12,8 +13,8 @@ pub(super) struct Asked<const N: usize> {
     /// Where the words' numbers are.
     places: [[u32; MOST_LANES]; N],
     words: [[Word; MOST_LANES]; N],
-    /// The shelves that were asked, in a large world.
-    shelves: [[u32; MOST_LANES]; N],
+    /// By which legends the words are to be read, in a large world.
+    legends: [[u32; MOST_LANES]; N],
     /// What is set in any lane's word.
     any: [Word; N],
 }
@@ -29,21 +30,21 @@ impl<const N: usize> Asked<N> {
         Self {
             places: [[0; MOST_LANES]; N],
             words: [[0; MOST_LANES]; N],
-            shelves: [[0; MOST_LANES]; N],
+            legends: [[0; MOST_LANES]; N],
             any: [0; N],
         }
     }
 
-    /// Writes down where the numbers of a question's words are, and the shelves in a large world.
+    /// Writes down where the numbers of a question's words are, and the legends in a large world.
     #[inline(always)]
     pub(super) fn ask<V: Vector>(
         &mut self,
         question: usize,
         places: V,
-        shelves: Option<[u32; MOST_LANES]>,
+        legends: Option<&[u32; MOST_LANES]>,
     ) {
-        if let Some(shelves) = shelves {
-            self.shelves[question] = shelves;
+        if let Some(legends) = legends {
+            self.legends[question] = *legends;
         }
         self.places[question] = places.places();
     }
@@ -78,10 +79,10 @@ impl<const N: usize> Asked<N> {
         &self.words[question]
     }
 
-    /// The shelves that were asked one question, in a large world.
+    /// The legends to one question's words, in a large world.
     #[inline(always)]
-    pub(super) fn shelves(&self, question: usize) -> &[u32; MOST_LANES] {
-        &self.shelves[question]
+    pub(super) fn legends(&self, question: usize) -> &[u32; MOST_LANES] {
+        &self.legends[question]
     }
 
     /// The questions with a name for this round in any lane.
@@ -120,23 +121,35 @@ impl<const N: usize> Asked<N> {
 
 /// Rows of a large world.
 pub(super) struct ByPlace<'a> {
-    pub(super) table: &'a [Row],
-    pub(super) places: &'a [AtomicU32],
-    pub(super) words: &'a [Word; MOST_LANES],
-    pub(super) shelves: &'a [u32; MOST_LANES],
-    pub(super) round: usize,
+    table: &'a [Row],
+    meanings: &'a Meanings,
+    /// Where each lane's name is among the meanings.
+    at: [u32; MOST_LANES],
+}
+
+impl<'a> ByPlace<'a> {
+    /// Those of each word's name in this round, as its legend says.
+    #[inline(always)]
+    pub(super) fn new(
+        table: &'a [Row],
+        meanings: &'a Meanings,
+        words: &[Word; MOST_LANES],
+        legends: &[u32; MOST_LANES],
+        round: usize,
+    ) -> Self {
+        // By themselves, so that the compiler makes vectors of it.
+        let mut at = [0; MOST_LANES];
+        for lane in 0..MOST_LANES {
+            let name = (words[lane] >> (round as u32 * NAME)) as u32 & 0xff;
+            at[lane] = legends[lane] << NAME | name;
+        }
+        Self { table, meanings, at }
+    }
 }
 
 impl RowOfLane for ByPlace<'_> {
     #[inline(always)]
     fn row(&self, lane: usize) -> &Row {
-        let name = (self.words[lane] >> (self.round as u32 * NAME)) as u8;
-        let place = place(self.shelves[lane], name);
-        &self.table[self.places[place].load(Ordering::Relaxed) as usize]
+        &self.table[self.meanings.at(self.at[lane])]
     }
-}
-
-/// Where a shelf keeps what a name means.
-pub(super) fn place(shelf: u32, name: u8) -> usize {
-    (shelf as usize) << NAME | usize::from(name)
 }

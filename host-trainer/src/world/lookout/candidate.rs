@@ -13,6 +13,8 @@ pub(super) struct Candidate {
     pub(super) id: u32,
     pub(super) shape: Shape,
     pub(super) rounding: Rounding,
+    /// Whether it may hide others.
+    pub(super) hides: bool,
     /// Distance from the cell, metres.
     pub(super) distance: f64,
     /// The wall's normal, and how far its line is from the cell's points along it.
@@ -33,7 +35,13 @@ impl Candidate {
         // So wide that each wall with an end in doubt is seen.
         let aside = rounding.aside + 2.0 * limits.slack;
         let (middle, half) = directions(&shape, cell, aside);
-        Self { id, shape, rounding, distance, normal, heights, middle, half }
+        let hides = shape.length.max(2.0 * shape.radius) <= limits.largest;
+        Self { id, shape, rounding, hides, distance, normal, heights, middle, half }
+    }
+
+    /// Whether it is a wall that may hide others.
+    pub(super) fn is_hiding_wall(&self) -> bool {
+        self.hides && self.shape.is_wall()
     }
 
     /// Whether a beam on the arc can meet it.

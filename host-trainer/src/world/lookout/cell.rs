@@ -1,7 +1,7 @@
 //! What beams from one cell can meet in each direction, and what a body there can touch.
 
-use super::candidate;
-use super::cone::Cone;
+use super::candidate::{self, Candidate};
+use super::cone::{Cone, Hidden};
 use super::grid::Arc;
 use super::reach::Reach;
 use super::rounding::{Limits, Rounding};
@@ -17,6 +17,18 @@ const TOGETHER: usize = 8;
 
 /// Parts of a turn for headings; a power of two.
 pub(super) const SECTORS: u32 = 32;
+
+/// What beams from a cell in one bin may meet, by places in the world.
+pub(super) struct Sight<'a> {
+    /// What they may meet first.
+    pub(super) first: &'a [u32],
+    /// That, and what stands in its shade.
+    pub(super) all: &'a [u32],
+    /// No distance to anything else is computed as less than this, metres.
+    pub(super) beyond: f32,
+    /// Whether what is not among the first stands behind walls that meet, or discs that touch.
+    pub(super) joint: bool,
+}
 
 /// What does not change from cell to cell.
 #[derive(Debug)]
@@ -34,38 +46,42 @@ impl Surroundings {
         Self { range, body, limits, bins: arcs(BINS), sectors: arcs(SECTORS) }
     }
 
-    /// Calls `f` for each bin with the places of the obstacles that a beam from the cell may meet
-    /// first, and whether what is left out stands behind walls that meet.
+    /// Calls `f` for each bin with what a beam from the cell may meet first.
     pub(super) fn seen(
         &self,
         obstacles: &Obstacles,
         cell: &Rect,
-        mut f: impl FnMut(u32, &[u32], bool),
+        mut f: impl FnMut(u32, &Sight<'_>),
     ) {
         let candidates = candidate::all(obstacles, cell, self.range, &self.limits);
-        let (mut around, mut met, mut places) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut around, mut met) = (Vec::new(), Vec::new());
+        let (mut in_sight, mut in_light) = (Vec::new(), Vec::new());
+        let write = |places: &mut Vec<u32>, met: &[&Candidate]| {
+            places.clear();
+            places.extend(met.iter().map(|candidate| candidate.id));
+        };
         for (few, first) in self.bins.chunks(TOGETHER).zip((0..).step_by(TOGETHER)) {
             let all = Arc::around(few);
             around.clear();
             around.extend(candidates.iter().filter(|candidate| candidate.is_met(&all)));
-            let joined_in_all = match around.len() {
-                0 | 1 => Vec::new(),
+            let hidden_in_all = match around.len() {
+                0 | 1 => Hidden::nothing(),
                 _ => Cone::new(cell, &all, &self.limits).keep_in_sight(&mut around),
             };
             for (bin, arc) in (first..).zip(few) {
                 met.clear();
                 met.extend(around.iter().filter(|candidate| candidate.is_met(arc)));
-                let mut joint = !joined_in_all.is_empty();
-                if met.len() > 1 {
-                    let cone = Cone::new(cell, arc, &self.limits);
-                    let joined = cone.keep_in_sight(&mut met);
-                    let is_joined = |id| joined.contains(&id) || joined_in_all.contains(&id);
-                    let any_in_shade = cone.leave_out_shaded(&mut met, is_joined);
-                    joint |= !joined.is_empty() || any_in_shade;
-                }
-                places.clear();
-                places.extend(met.iter().map(|candidate| candidate.id));
-                f(bin, &places, joint);
+                let cone = Cone::new(cell, arc, &self.limits);
+                let hidden =
+                    if met.len() > 1 { cone.keep_in_sight(&mut met) } else { Hidden::nothing() };
+                write(&mut in_sight, &met);
+                let joined = || hidden.joined.iter().chain(&hidden_in_all.joined);
+                let any_in_shade =
+                    cone.leave_out_shaded(&mut met, |id| joined().any(|joined| *joined == id));
+                write(&mut in_light, &met);
+                let beyond = hidden.beyond.min(hidden_in_all.beyond) as f32;
+                let joint = any_in_shade || joined().next().is_some();
+                f(bin, &Sight { first: &in_light, all: &in_sight, beyond, joint });
             }
         }
     }

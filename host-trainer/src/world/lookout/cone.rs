@@ -25,6 +25,21 @@ pub(super) struct Cone<'a> {
     ahead: [f64; 2],
 }
 
+/// What beams cannot meet first.
+pub(super) struct Hidden {
+    /// The places in the world of the walls that meet, or the discs that touch, before it; none
+    /// before nothing, or if a single obstacle hides it.
+    pub(super) joined: Vec<u32>,
+    /// No distance to it is computed as less than this, metres.
+    pub(super) beyond: f64,
+}
+
+impl Hidden {
+    pub(super) fn nothing() -> Self {
+        Self { joined: Vec::new(), beyond: f64::INFINITY }
+    }
+}
+
 /// Walls that meet end to end, by their places among the candidates.
 struct Chain {
     walls: [usize; LONGEST],
@@ -49,9 +64,8 @@ impl<'a> Cone<'a> {
     }
 
     /// Keeps those of the candidates that the beams can meet first. They are all that the beams
-    /// can meet, the nearest first. Returns the places in the world of the walls that meet, or the
-    /// discs that touch, if any was left out because of such.
-    pub(super) fn keep_in_sight(&self, met: &mut Vec<&Candidate>) -> Vec<u32> {
+    /// can meet, the nearest first.
+    pub(super) fn keep_in_sight(&self, met: &mut Vec<&Candidate>) -> Hidden {
         let all = met.len();
         let mut nearest = f64::INFINITY;
         let mut chain = Chain { walls: [0; LONGEST], count: 0 };
@@ -81,13 +95,17 @@ impl<'a> Cone<'a> {
             let (distance, error) = self.least_distance(candidate);
             error > MOST_ERROR || distance - error <= nearest + 4.0 * self.limits.slack
         });
-        if met.len() < all { joined } else { Vec::new() }
+        if met.len() < all {
+            Hidden { joined, beyond: nearest + 3.0 * self.limits.slack }
+        } else {
+            Hidden::nothing()
+        }
     }
 
     /// How far a beam goes at most that crosses the chain through the seed, if all do, and that
     /// chain.
     fn behind(&self, met: &[&Candidate], seed: usize, walked: &mut [bool]) -> Option<(f64, Chain)> {
-        if !met[seed].shape.is_wall() {
+        if !met[seed].is_hiding_wall() {
             return None;
         }
         let mut chain = Chain { walls: [seed; LONGEST], count: 1 };
@@ -129,7 +147,7 @@ impl<'a> Cone<'a> {
         met.iter().enumerate().find_map(|(next, candidate)| {
             let mut ends = candidate.shape.ends.iter();
             let entry = ends.position(|end| self.is_joint(*end, joint))?;
-            (candidate.shape.is_wall() && fits(next)).then_some((next, entry))
+            (candidate.is_hiding_wall() && fits(next)).then_some((next, entry))
         })
     }
 

@@ -40,7 +40,9 @@ impl Cone<'_> {
     pub(super) fn behind_discs(&self, met: &[&Candidate], nearest: f64) -> Option<(f64, Vec<u32>)> {
         let mut groups: Vec<Group> = Vec::new();
         let within = met.iter().enumerate().take_while(|(_, disc)| disc.distance < nearest);
-        for (place, disc) in within.filter(|(_, disc)| disc.shape.radius > 0.0).take(MOST) {
+        for (place, disc) in
+            within.filter(|(_, disc)| disc.shape.radius > 0.0 && disc.hides).take(MOST)
+        {
             let Some(mut mine) = self.alone(place, disc) else { continue };
             if mine.sides != [true; 2] {
                 groups.retain(|group| {

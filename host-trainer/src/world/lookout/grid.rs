@@ -10,6 +10,9 @@ const SIDE: f32 = 0.125;
 /// The same in a world with many, where it takes long to look around from a cell.
 const LARGE_SIDE: f32 = 0.25;
 
+/// Cells along a tile.
+const TILE: usize = 16;
+
 /// Most cells; a larger world has larger ones.
 const MOST_CELLS: usize = 1 << 23;
 
@@ -46,6 +49,27 @@ impl Grid {
     /// How many cells there are; their numbers go from 0, row by row.
     pub(super) fn cells(&self) -> usize {
         self.columns * self.rows
+    }
+
+    /// How many tiles there are, squares of cells; their numbers go from 0, row by row.
+    pub(super) fn tiles(&self) -> usize {
+        self.columns.div_ceil(TILE) * self.rows.div_ceil(TILE)
+    }
+
+    /// The tile of a cell.
+    pub(super) fn tile(&self, cell: usize) -> usize {
+        let (column, row) = (cell % self.columns, cell / self.columns);
+        row / TILE * self.columns.div_ceil(TILE) + column / TILE
+    }
+
+    /// Every point in the cells of a tile.
+    pub(super) fn tile_rect(&self, tile: usize) -> Rect {
+        let across = self.columns.div_ceil(TILE);
+        let (column, row) = (tile % across * TILE, tile / across * TILE);
+        let last = (column + TILE).min(self.columns) - 1
+            + ((row + TILE).min(self.rows) - 1) * self.columns;
+        let (low, high) = (self.rect(column + row * self.columns), self.rect(last));
+        Rect { low: low.low, high: high.high }
     }
 
     /// From corner to corner of a cell, metres.

@@ -22,6 +22,9 @@ const AHEAD: f64 = 16.0;
 /// is there, and so what is left out can only be computed as nearer if it is met not much later.
 pub(super) const MOST_ERROR: f64 = 0.125;
 
+/// Obstacles larger than so many times the range hide nothing.
+const MOST_RANGES: f64 = 4.0;
+
 /// Bounds for every obstacle of a world.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
@@ -29,18 +32,25 @@ pub(super) struct Limits {
     pub(super) joint: f64,
     /// A beam that passes a wall's end within this is not to be trusted, metres.
     pub(super) slack: f64,
+    /// Obstacles larger than this hide nothing, metres: rounding grows with their size, and so would
+    /// the slack of a whole world with the walls around it.
+    pub(super) largest: f64,
 }
 
 impl Limits {
-    /// For obstacles no larger than `largest` that are seen from cells no larger than `cell`, by
-    /// beams that reach `range`; the ends of walls that meet are at most `joint` apart. Metres.
+    /// For obstacles no larger than `largest`, or that hide nothing, which are seen from cells no
+    /// larger than `cell`, by beams that reach `range`; the ends of walls that meet are at most `joint`
+    /// apart. Metres.
     pub(super) fn new(range: f32, largest: f64, cell: f64, joint: f32) -> Self {
         let joint = f64::from(joint);
+        let largest = largest.min(MOST_RANGES * f64::from(range));
         let ahead = AHEAD * UNIT * (1.01 * f64::from(range) + 4.0 * (largest + cell));
         // Past the overlap of walls that meet, and so much that a beam which keeps clear of a
         // wall's ends by it has a distance to that wall with an error of an eighth of its length.
-        let slack = 4.0 * ahead + 5.0 * joint;
-        Self { joint, slack }
+        // A wall that begins at another one's end, and stands behind it, may stick out by a joint;
+        // after two more it has gone back behind it (`shade`).
+        let slack = 4.0 * ahead + 3.0 * joint;
+        Self { joint, slack, largest }
     }
 }
 

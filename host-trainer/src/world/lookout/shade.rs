@@ -55,7 +55,7 @@ impl Cone<'_> {
         let by_angle = candidate.rounding.ahead / self.slowest(candidate);
         let error = candidate.rounding.distance.min(by_angle);
         // Where rounding can bring it before the car, or it runs along a beam, nothing is sure.
-        if !candidate.shape.is_wall() || error >= candidate.distance.min(MOST_ERROR) {
+        if !candidate.is_hiding_wall() || error >= candidate.distance.min(MOST_ERROR) {
             return None;
         }
         let is_before = |place: usize| {
@@ -95,7 +95,7 @@ impl Cone<'_> {
     /// it meets the shaded one, as computed.
     fn stands_before(&self, wall: &Candidate, shaded: &Candidate, error: f64) -> bool {
         let [low, high] = wall.heights;
-        if !wall.shape.is_wall() || low * high <= 0.0 || !self.is_crossed_ahead(wall) {
+        if !wall.is_hiding_wall() || low * high <= 0.0 || !self.is_crossed_ahead(wall) {
             return false;
         }
         let line = dot(wall.normal, wall.shape.ends[0]);

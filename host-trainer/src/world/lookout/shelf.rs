@@ -1,24 +1,22 @@
 //! What has been found out about each cell.
 //!
 //! A name is a byte. In a small world it counts all obstacles, and every cell has its shelf. In a
-//! large one it counts those of its cell, which are listed beside the words, and cells get a
-//! shelf when a car turns up. Memory is asked for at once, but what no car visits is never
-//! touched, and so takes none.
+//! large one a legend says what it means, and cells get a shelf when a car turns up. Memory is asked
+//! for at once, but what no car visits is never touched, and so takes none.
 
-use super::asked::{Asked, ByPlace, place};
+use super::asked::{Asked, ByPlace};
 use super::beams::{self, Row};
-use super::cell::{BINS, SECTORS, Surroundings};
+use super::cell::{BINS, SECTORS, Sight, Surroundings};
 use super::grid::Grid;
+use super::kept::Kept;
+use super::legends::{Legends, MOST_NAMES, Naming};
 use super::rounding::Limits;
 use super::words::{JOINT, NAME, NAMES, UNKNOWN, Word, Words};
-use crate::vector::{ByName, Table, Vector, fetch};
+use crate::vector::{ByName, MOST_LANES, Table, Vector};
 use crate::world::Obstacles;
 use controller_core::geometry::{Body, Segment};
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicU16, AtomicU32, Ordering};
-
-/// Names of obstacles; name 0 is that of nothing.
-const MOST: usize = u8::MAX as usize;
+use std::sync::atomic::{AtomicU16, AtomicU32, AtomicU64, Ordering};
 
 /// Most cells that are remembered in a large world; beyond, all obstacles are asked.
 const MOST_SHELVES: usize = 1 << 16;
@@ -37,7 +35,7 @@ pub(super) struct Shelf {
     /// What the body can touch, by shelf and sector, likewise.
     near: Box<[AtomicU16]>,
     words: Words,
-    /// Lists that do not fit into a word, by shelf; set once the shelf's words are written.
+    /// What words do not say, by shelf; set once the shelf's words are written.
     lists: Box<[OnceLock<Lists>]>,
     large: Option<Large>,
 }
@@ -54,16 +52,53 @@ struct Rows {
 /// What a large world has besides.
 #[derive(Debug)]
 struct Large {
-    /// Each cell's shelf; 0 where nobody has been yet.
-    shelves: Box<[AtomicU32]>,
+    /// Each cell's shelf and legend, see [`Spot`]; 0 where nobody has been yet.
+    spots: Box<[AtomicU64]>,
     /// Shelves given out.
     taken: AtomicU32,
-    /// What the names of a shelf mean.
-    places: Box<[AtomicU32]>,
+    legends: Legends,
 }
 
-/// Lists of places that do not fit into a word, and whether they rely on walls that meet.
-type Lists = Box<[(Box<[u32]>, bool)]>;
+/// Where to look for what is known of a cell, and how to read it.
+#[derive(Clone, Copy)]
+struct Spot {
+    shelf: u32,
+    legend: u32,
+}
+
+impl Spot {
+    fn of(bits: u64) -> Self {
+        Self { shelf: bits as u32, legend: (bits >> 32) as u32 }
+    }
+
+    fn bits(self) -> u64 {
+        u64::from(self.legend) << 32 | u64::from(self.shelf)
+    }
+}
+
+/// Many cells' shelves, and their legends in a large world.
+#[derive(Clone, Copy)]
+pub(super) struct Shelves<V> {
+    shelves: V,
+    legends: [u32; MOST_LANES],
+}
+
+/// Obstacles whose word does not name all there are: too many, or, in a large world, some hidden only
+/// from beams that pass no wall's end too closely.
+#[derive(Debug)]
+struct Lists {
+    seen: Kept,
+    near: Kept,
+}
+
+/// How sure is what has been found?
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Sure {
+    /// No distance to anything else is computed as less than this, metres.
+    Within(f32),
+    /// So far as no end of these obstacles is passed too closely.
+    UnlessDoubtful,
+}
 
 /// What is asked.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +125,7 @@ pub struct Survey {
 impl Shelf {
     /// Whether these obstacles are more than there are names.
     pub(super) fn are_many(obstacles: &Obstacles) -> bool {
-        obstacles.walls().len() + obstacles.discs().len() > MOST
+        obstacles.walls().len() + obstacles.discs().len() > MOST_NAMES
     }
 
     pub(super) fn new(obstacles: &Obstacles, grid: &Grid, range: f32, body: Body<f32>) -> Self {
@@ -106,9 +141,9 @@ impl Shelf {
         };
         let is_large = Self::are_many(obstacles) || grid.cells() >= MOST_SHELVES;
         let large = is_large.then(|| Large {
-            shelves: bytemuck::zeroed_slice_box(grid.cells() + 1),
+            spots: bytemuck::zeroed_slice_box(grid.cells() + 1),
             taken: AtomicU32::new(1),
-            places: bytemuck::zeroed_slice_box(MOST_SHELVES << NAME),
+            legends: Legends::new(grid.tiles(), range),
         });
         let shelves = if large.is_some() { MOST_SHELVES } else { grid.cells() + 1 };
         Self {
@@ -140,7 +175,7 @@ impl Shelf {
         &self,
         asked: &mut Asked<N>,
         question: usize,
-        shelves: V,
+        shelves: &Shelves<V>,
         bins: V,
     ) {
         self.ask(asked, question, shelves, bins, BINS);
@@ -158,7 +193,7 @@ impl Shelf {
         &self,
         asked: &mut Asked<N>,
         question: usize,
-        shelves: V,
+        shelves: &Shelves<V>,
         sectors: V,
     ) {
         self.ask(asked, question, shelves, sectors, SECTORS);
@@ -170,13 +205,12 @@ impl Shelf {
         &self,
         asked: &mut Asked<N>,
         question: usize,
-        shelves: V,
+        Shelves { shelves, legends }: &Shelves<V>,
         part: V,
         parts: u32,
     ) {
-        let places = shelves * V::from(parts as f32) + part;
-        let shelves = self.large.is_some().then(|| shelves.places());
-        asked.ask(question, places, shelves);
+        let places = *shelves * V::from(parts as f32) + part;
+        asked.ask(question, places, self.large.as_ref().map(|_| legends));
     }
 
     /// Answers what beams can meet.
@@ -193,19 +227,16 @@ impl Shelf {
 
     /// The shelves of these cells.
     #[inline(always)]
-    pub(super) fn shelves<V: Vector>(&self, cells: V) -> V {
-        let Some(large) = &self.large else { return cells };
-        let cells = cells.places();
-        let mut shelves = V::from(0.0);
-        for (shelf, cell) in shelves.lanes_mut().iter_mut().zip(cells) {
-            let taken = large.shelves[cell as usize].load(Ordering::Relaxed);
-            // What most of its names mean.
-            for name in (0..48).step_by(16) {
-                fetch(&large.places, place(taken, name));
+    pub(super) fn shelves<V: Vector>(&self, cells: V) -> Shelves<V> {
+        let mut all = Shelves { shelves: cells, legends: [0; MOST_LANES] };
+        if let Some(large) = &self.large {
+            let cells = cells.places();
+            for (lane, shelf) in all.shelves.lanes_mut().iter_mut().enumerate() {
+                let spot = Spot::of(large.spots[cells[lane] as usize].load(Ordering::Relaxed));
+                (*shelf, all.legends[lane]) = (spot.shelf as f32, spot.legend);
             }
-            *shelf = taken as f32;
         }
-        shelves
+        all
     }
 
     /// The obstacles of each word's name in this round, as beams meet them.
@@ -241,16 +272,16 @@ impl Shelf {
         let words = asked.words(question);
         match &self.large {
             None => V::named(ByName { table: &table.named, words, byte: round }),
-            Some(Large { places, .. }) => {
-                let shelves = asked.shelves(question);
-                V::rows(ByPlace { table: &table.all, places, words, shelves, round })
+            Some(Large { legends, .. }) => {
+                let (meanings, legends) = (legends.meanings(), asked.legends(question));
+                V::rows(ByPlace::new(&table.all, meanings, words, legends, round))
             }
         }
     }
 
     /// Calls `f` with every obstacle that is asked for, after looking around from its cell if nobody
-    /// has. Returns whether what is left out stands behind walls that meet; none where there is no
-    /// such cell, or no room to remember it.
+    /// has. Returns how sure it is that no other counts; none where there is no such cell, or no room
+    /// to remember it.
     pub(super) fn each(
         &self,
         grid: &Grid,
@@ -258,46 +289,49 @@ impl Shelf {
         cell: u32,
         question: Question,
         mut f: impl FnMut(&Row),
-    ) -> Option<bool> {
-        let shelf = self.shelf(grid, cell)?;
+    ) -> Option<Sure> {
+        let spot @ Spot { shelf, legend } = self.spot(grid, obstacles, cell)?;
         let lists = self.lists[shelf as usize]
-            .get_or_init(|| self.look_around(grid, obstacles, cell, shelf));
-        let (numbers, table, at) = match question {
-            Question::Seen(bin) => (&self.seen, &self.edges, shelf * BINS + bin),
-            Question::Near(sector) => (&self.near, &self.faces, shelf * SECTORS + sector),
+            .get_or_init(|| self.look_around(grid, obstacles, cell, spot));
+        let (kept, part, numbers, table, at) = match question {
+            Question::Seen(bin) => (&lists.seen, bin, &self.seen, &self.edges, shelf * BINS + bin),
+            Question::Near(sector) => {
+                (&lists.near, sector, &self.near, &self.faces, shelf * SECTORS + sector)
+            }
         };
+        if let Some((places, beyond)) = kept.of(part) {
+            places.iter().for_each(|place| f(&table.all[*place as usize + 1]));
+            return Some(Sure::Within(beyond));
+        }
         let word = self.words.all().of(&numbers[at as usize]);
         if word & UNKNOWN != 0 {
-            let number = (word & !UNKNOWN) as usize;
-            let (list, joint) = lists.get(number.checked_sub(1)?)?;
-            list.iter().for_each(|place| f(&table.all[*place as usize + 1]));
-            return Some(*joint);
+            return None;
         }
         let names = word.to_le_bytes();
         for name in names[..NAMES].iter().take_while(|name| **name != 0) {
-            f(&table.all[self.row(shelf, *name)]);
+            f(&table.all[self.row(legend, *name)]);
         }
-        Some(word & JOINT != 0)
+        Some(if word & JOINT != 0 { Sure::UnlessDoubtful } else { Sure::Within(f32::INFINITY) })
     }
 
     /// Where in the tables a name's obstacle is.
-    fn row(&self, shelf: u32, name: u8) -> usize {
+    fn row(&self, legend: u32, name: u8) -> usize {
         match &self.large {
             None => usize::from(name),
-            Some(large) => large.places[place(shelf, name)].load(Ordering::Relaxed) as usize,
+            Some(large) => large.legends.meaning(legend, name),
         }
     }
 
-    /// The shelf of a cell; takes one if it has none yet.
-    fn shelf(&self, grid: &Grid, cell: u32) -> Option<u32> {
+    /// The shelf and legend of a cell; takes one if it has none yet.
+    fn spot(&self, grid: &Grid, obstacles: &Obstacles, cell: u32) -> Option<Spot> {
         if cell as usize >= grid.cells() {
             return None;
         }
-        let Some(large) = &self.large else { return Some(cell) };
-        let mine = &large.shelves[cell as usize];
+        let Some(large) = &self.large else { return Some(Spot { shelf: cell, legend: 0 }) };
+        let mine = &large.spots[cell as usize];
         let known = mine.load(Ordering::Relaxed);
         if known != 0 {
-            return Some(known);
+            return Some(Spot::of(known));
         }
         if large.taken.load(Ordering::Relaxed) as usize >= MOST_SHELVES {
             return None;
@@ -306,57 +340,60 @@ impl Shelf {
         if new as usize >= MOST_SHELVES {
             return None;
         }
+        let tile = grid.tile(cell as usize);
+        let legend = large.legends.of(tile, || grid.tile_rect(tile), obstacles)?;
+        let new = Spot { shelf: new, legend };
         // Another thread may have been faster; then this shelf stays empty.
-        match mine.compare_exchange(0, new, Ordering::Relaxed, Ordering::Relaxed) {
+        match mine.compare_exchange(0, new.bits(), Ordering::Relaxed, Ordering::Relaxed) {
             Ok(_) => Some(new),
-            Err(theirs) => Some(theirs),
+            Err(theirs) => Some(Spot::of(theirs)),
         }
     }
 
-    /// Writes a cell's words; returns its lists that are too long for one.
-    fn look_around(&self, grid: &Grid, obstacles: &Obstacles, cell: u32, shelf: u32) -> Lists {
-        let rect = grid.rect(cell as usize);
-        let mut long: Vec<(Box<[u32]>, bool)> = Vec::new();
-        let mut named: Vec<u32> = Vec::new();
-        let mut write = |at: u32, is_near: bool, places: &[u32], joint: bool| {
-            let names = places.iter().map(|place| self.name(shelf, *place, &mut named));
-            let flags = if joint { JOINT } else { 0 };
+    /// Writes a cell's words; returns what they do not say.
+    fn look_around(&self, grid: &Grid, obstacles: &Obstacles, cell: u32, spot: Spot) -> Lists {
+        let (rect, Spot { shelf, legend }) = (grid.rect(cell as usize), spot);
+        let mut naming = match &self.large {
+            None => Naming::Own(Vec::new()),
+            Some(large) => large.legends.naming(grid.tile(cell as usize)),
+        };
+        // Returns whether there is a word that names all of these places.
+        let mut write = |numbers: &[AtomicU16], at: u32, places: &[u32], flags: Word| {
+            let names = places.iter().map(|place| self.name(legend, &mut naming, *place));
             let all = (places.len() <= NAMES).then_some(flags);
             let word = names
                 .zip(0..)
                 .fold(all, |word, (name, n)| Some(word? | Word::from(name?) << (n * NAME)));
-            let word = word.unwrap_or_else(|| {
-                long.push((places.into(), joint));
-                long.len() as Word | UNKNOWN
-            });
-            // Without a number, all obstacles are asked.
-            let number = self.words.number(word).unwrap_or(0);
-            let numbers = if is_near { &self.near } else { &self.seen };
-            numbers[at as usize].store(number, Ordering::Release);
+            let number = word.and_then(|word| self.words.number(word));
+            let number = number.or_else(|| self.words.number(UNKNOWN));
+            // Without a number, it is asked anew whether somebody has looked around.
+            numbers[at as usize].store(number.unwrap_or(0), Ordering::Release);
+            word.is_some()
         };
-        self.surroundings.seen(obstacles, &rect, |bin, places, joint| {
-            write(shelf * BINS + bin, false, places, joint);
+        let (mut seen, mut near) = (Kept::builder(), Kept::builder());
+        self.surroundings.seen(obstacles, &rect, |bin, sight| {
+            let Sight { first, all, beyond, joint } = *sight;
+            let flags = if joint { JOINT } else { 0 };
+            let is_named = write(&self.seen, shelf * BINS + bin, first, flags);
+            // In a small world it is quicker to ask all obstacles.
+            if !is_named || (joint && self.large.is_some()) {
+                seen.keep(bin, all, beyond);
+            }
         });
         self.surroundings.near(obstacles, &rect, |sector, places| {
-            write(shelf * SECTORS + sector, true, places, false);
+            if !write(&self.near, shelf * SECTORS + sector, places, 0) {
+                near.keep(sector, places, f32::INFINITY);
+            }
         });
-        long.into()
+        Lists { seen: seen.done(), near: near.done() }
     }
 
     /// The name of the obstacle in this place; none if there are too many.
-    fn name(&self, shelf: u32, obstacle: u32, named: &mut Vec<u32>) -> Option<u8> {
-        let Some(large) = &self.large else { return u8::try_from(obstacle + 1).ok() };
-        let known = named.iter().position(|known| *known == obstacle);
-        let index = known.unwrap_or_else(|| {
-            named.push(obstacle);
-            named.len() - 1
-        });
-        if index >= MOST {
-            return None;
+    fn name(&self, legend: u32, naming: &mut Naming<'_>, place: u32) -> Option<u8> {
+        match &self.large {
+            None => u8::try_from(place + 1).ok(),
+            Some(large) => large.legends.name(legend, naming, place),
         }
-        let name = index as u8 + 1;
-        large.places[place(shelf, name)].store(obstacle + 1, Ordering::Relaxed);
-        Some(name)
     }
 
     /// The cells visited so far.
@@ -364,7 +401,7 @@ impl Shelf {
         let is_visited = |cell: &u32| {
             let shelf = match &self.large {
                 None => *cell,
-                Some(large) => large.shelves[*cell as usize].load(Ordering::Relaxed),
+                Some(large) => Spot::of(large.spots[*cell as usize].load(Ordering::Relaxed)).shelf,
             };
             self.lists[shelf as usize].get().is_some()
         };
@@ -381,13 +418,13 @@ impl Shelf {
             counts.sort_unstable();
             counts
         };
-        let names = if self.large.is_some() { size_of::<u32>() << NAME } else { 0 };
-        let words = (BINS + SECTORS) as usize * size_of::<u16>() + names;
-        let lists = self.lists.iter().filter_map(OnceLock::get).flatten();
-        let long: usize = lists.map(|(list, _)| size_of_val(&**list)).sum();
+        let legends = self.large.as_ref().map_or(0, |large| large.legends.bytes());
+        let words = (BINS + SECTORS) as usize * size_of::<u16>();
+        let lists = self.lists.iter().filter_map(OnceLock::get);
+        let long: usize = lists.map(|lists| lists.seen.bytes() + lists.near.bytes()).sum();
         Survey {
             cells: cells.len(),
-            bytes: cells.len() * words + long,
+            bytes: cells.len() * words + legends + long,
             seen: counts(BINS, Question::Seen),
             near: counts(SECTORS, Question::Near),
         }
