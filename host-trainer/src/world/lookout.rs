@@ -3,10 +3,14 @@
 //! Positions are divided into cells and directions into parts of a turn. For each cell and part,
 //! the few obstacles that a beam can meet first there, or that the body can touch, are found
 //! once: those out of range, outside of the directions, or hidden behind others are left out.
-//! The rest is tested with the same arithmetic as ever, so distances and contacts are those of a
+//! In a crowd of small obstacles, where such lists would be long, a beam walks through a field of
+//! distances instead.
+//!
+//! What is left is tested with the same arithmetic as ever, so distances and contacts are those of a
 //! test of all obstacles, to the last bit. One thing is left to rounding: a wall that lies along a
-//! beam's line, to the last digit of both, behind the car or out of range; a test of all obstacles
-//! may compute it as met. Drives alone and in lanes both ask here, so they agree about it.
+//! beam's line, to the last digit of both, behind the car, out of range or, in a crowd, beyond what the
+//! beam meets first; a test of all obstacles may compute it as met. Drives alone and in lanes both ask
+//! here, so they agree about it.
 //!
 //! | look in | for |
 //! | --- | --- |
@@ -15,6 +19,7 @@
 //! | `beams` | the tests, many beams side by side |
 //! | `shelf` | what is found once for each cell |
 //! | `words`, `asked` | how it is kept in few bytes, and read for many beams at once |
+//! | `field` | how far beams may go at once, where lists would be long |
 //! | `legends` | what names mean where obstacles are many |
 //! | `kept` | what does not fit into these |
 //! | `cell`, `candidate`, `cone`, `discs`, `shade`, `reach`, `rounding` | how it is found, and what may be left out |
@@ -26,6 +31,7 @@ mod cell;
 mod cone;
 mod discs;
 mod fan;
+mod field;
 mod grid;
 mod kept;
 mod legends;
@@ -43,6 +49,7 @@ use cell::{BINS, SECTORS};
 use controller_core::geometry::{Body, Disc, Ray, Segment};
 use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
+use field::Field;
 use grid::{Grid, part_of_turn};
 use rounding::MOST_ERROR;
 use shelf::{Question, Shelf, Sure};
@@ -60,6 +67,8 @@ pub struct Lookout {
     slack: f32,
     grid: Grid,
     shelf: Shelf,
+    /// In a crowd, what answers for the beams.
+    field: Option<Field>,
 }
 
 impl Lookout {
@@ -68,8 +77,9 @@ impl Lookout {
     pub fn new(obstacles: Arc<Obstacles>, range: f32, body: Body<f32>) -> Self {
         let [low, high] = obstacles.bounds();
         let grid = Grid::new(low, high, Shelf::are_many(&obstacles));
-        let shelf = Shelf::new(&obstacles, &grid, range, body);
-        Self { slack: shelf.slack(), obstacles, range, body, grid, shelf }
+        let field = Field::new(&obstacles, range);
+        let shelf = Shelf::new(&obstacles, &grid, range, body, field.is_none());
+        Self { slack: shelf.slack(), obstacles, range, body, grid, shelf, field }
     }
 
     /// How far the beams of cars at these poses go, metres: the distance to the nearest obstacle, or
@@ -87,6 +97,9 @@ impl Lookout {
         live: &[u32; N],
     ) -> [[V; BEAMS]; N] {
         const { assert!(Q == N * BEAMS) };
+        if let Some(field) = &self.field {
+            return field.distances(&self.obstacles, rays, live);
+        }
         // First where everything lies that is to be loaded, then loading it, then everything that is
         // to be computed: so the CPU never waits for the one to begin the other.
         let mut asked = Asked::<Q>::new();
@@ -145,6 +158,16 @@ impl Lookout {
         poses: &[Pose<V>; N],
         live: &[u32; N],
     ) -> [u32; N] {
+        let mut live = *live;
+        if let Some(field) = &self.field {
+            let Body { rear, front, half_width } = self.body;
+            let (middle, half_length) = (0.5 * (rear + front), 0.5 * (front - rear));
+            let reach = 1.001 * libm::hypotf(half_length, half_width);
+            for car in 0..N {
+                let middle = poses[car].to_world(V::from(middle), V::from(0.0));
+                live[car] &= field.may_be_within(middle, reach);
+            }
+        }
         let mut asked = Asked::<N>::new();
         let mut sectors = [V::from(0.0); N];
         for car in 0..N {

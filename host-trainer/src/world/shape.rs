@@ -41,6 +41,11 @@ impl Rect {
         }
     }
 
+    pub(super) fn moved(self, by: Point) -> Self {
+        let plus = |point: Point| [point[0] + by[0], point[1] + by[1]];
+        Self { low: plus(self.low), high: plus(self.high) }
+    }
+
     pub(super) fn corners(&self) -> [Point; 4] {
         let ([x0, y0], [x1, y1]) = (self.low, self.high);
         [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]

@@ -59,6 +59,12 @@ impl<V: Vector> Beams<V> {
         Self { ray, near: nothing, past: nothing }
     }
 
+    /// Something met already, so far away.
+    #[inline(always)]
+    pub(super) fn met(ray: Ray<V>, near: V) -> Self {
+        Self { near, ..Self::new(ray) }
+    }
+
     /// Tests a wall for each beam.
     ///
     /// The numbers are those of [`Ray::to_segment`], operation by operation. Only the tests differ:
@@ -119,6 +125,12 @@ impl<V: Vector> Beams<V> {
         // Which zero is least depends on the order of obstacles; the sum is the positive one.
         let within = self.near.le(V::from(range));
         V::select(within, self.near + V::from(0.0), V::from(f32::INFINITY))
+    }
+
+    /// Distance to the nearest of what was tested, metres; infinity where nothing was met.
+    #[inline(always)]
+    pub(super) fn near(&self) -> V {
+        self.near
     }
 
     /// Which beams' lines pass any tested wall's end, or a disc's edge, within `slack` metres.

@@ -11,7 +11,7 @@ const SIDE: f32 = 0.125;
 const LARGE_SIDE: f32 = 0.25;
 
 /// Cells along a tile.
-const TILE: usize = 16;
+pub(super) const TILE: usize = 16;
 
 /// Most cells; a larger world has larger ones.
 const MOST_CELLS: usize = 1 << 23;
@@ -36,9 +36,13 @@ pub(super) struct Grid {
 impl Grid {
     /// Cells over a rectangle, metres.
     pub(super) fn new(low: [f32; 2], high: [f32; 2], has_many: bool) -> Self {
+        Self::of_side(low, high, if has_many { LARGE_SIDE } else { SIDE })
+    }
+
+    /// The same, of this side or a larger one.
+    pub(super) fn of_side(low: [f32; 2], high: [f32; 2], mut side: f32) -> Self {
         let size = [high[0] - low[0], high[1] - low[1]].map(|size| size.max(f32::MIN_POSITIVE));
         let count = |side: f32| size.map(|size| (size / side).ceil() + 1.0);
-        let mut side = if has_many { LARGE_SIDE } else { SIDE };
         while count(side)[0] * count(side)[1] > MOST_CELLS as f32 {
             side *= 1.25;
         }
@@ -62,6 +66,30 @@ impl Grid {
         row / TILE * self.columns.div_ceil(TILE) + column / TILE
     }
 
+    /// The tile of the cell in this column and row, and where it is in that, counted row by row.
+    #[inline(always)]
+    pub(super) fn in_tile(&self, column: u32, row: u32) -> (usize, usize) {
+        let (column, row) = (column as usize, row as usize);
+        let tile = row / TILE * self.columns.div_ceil(TILE) + column / TILE;
+        (tile, row % TILE * TILE + column % TILE)
+    }
+
+    /// The cells of a tile and their places in it.
+    pub(super) fn cells_of_tile(&self, tile: usize) -> impl Iterator<Item = (usize, usize)> {
+        let across = self.columns.div_ceil(TILE);
+        let (column, row) = (tile % across * TILE, tile / across * TILE);
+        let columns = column..(column + TILE).min(self.columns);
+        let rows = row..(row + TILE).min(self.rows);
+        let cells = rows.flat_map(move |row| columns.clone().map(move |column| (column, row)));
+        cells.map(|(column, row)| (row * self.columns + column, row % TILE * TILE + column % TILE))
+    }
+
+    /// Every point in the first cell of a tile.
+    pub(super) fn first_of_tile(&self, tile: usize) -> Rect {
+        let across = self.columns.div_ceil(TILE);
+        self.rect(tile / across * TILE * self.columns + tile % across * TILE)
+    }
+
     /// Every point in the cells of a tile.
     pub(super) fn tile_rect(&self, tile: usize) -> Rect {
         let across = self.columns.div_ceil(TILE);
@@ -72,6 +100,11 @@ impl Grid {
         Rect { low: low.low, high: high.high }
     }
 
+    /// Side of a cell, metres.
+    pub(super) fn side(&self) -> f64 {
+        f64::from(self.side)
+    }
+
     /// From corner to corner of a cell, metres.
     pub(super) fn diagonal(&self) -> f64 {
         f64::from(self.side) * std::f64::consts::SQRT_2
@@ -79,14 +112,29 @@ impl Grid {
 
     /// The cell of each point; [`Self::cells`] for those outside of the grid.
     #[inline(always)]
-    pub(super) fn locate<V: Vector>(&self, (x, y): (V, V)) -> V {
+    pub(super) fn locate<V: Vector>(&self, point: (V, V)) -> V {
+        let (cells, ..) = self.locate_in(point);
+        cells
+    }
+
+    /// The same, and in which column and row it is.
+    #[inline(always)]
+    pub(super) fn locate_in<V: Vector>(&self, (x, y): (V, V)) -> (V, V, V) {
         let per_metre = V::from(self.per_metre);
         let (columns, rows) = (V::from(self.columns as f32), V::from(self.rows as f32));
         let column = nearest_integer((x - V::from(self.origin[0])) * per_metre);
         let row = nearest_integer((y - V::from(self.origin[1])) * per_metre);
         let zero = V::from(0.0);
         let is_inside = zero.le(column) & column.lt(columns) & zero.le(row) & row.lt(rows);
-        V::select(is_inside, row * columns + column, V::from(self.cells() as f32))
+        let cells = V::select(is_inside, row * columns + column, V::from(self.cells() as f32));
+        (cells, column, row)
+    }
+
+    /// The middle of a cell.
+    #[inline(always)]
+    pub(super) fn centre<V: Vector>(&self, column: V, row: V) -> (V, V) {
+        let (side, [x, y]) = (V::from(self.side), self.origin);
+        (V::from(x) + column * side, V::from(y) + row * side)
     }
 
     /// Every point that [`Self::locate`] puts in this cell, and a little more.

@@ -26,6 +26,7 @@ const MOST_SHELVES: usize = 1 << 16;
 pub(super) struct Shelf {
     surroundings: Surroundings,
     has_discs: bool,
+    is_for_beams: bool,
     /// Obstacles as beams meet them.
     edges: Rows,
     /// The same as bodies meet them.
@@ -128,7 +129,14 @@ impl Shelf {
         obstacles.walls().len() + obstacles.discs().len() > MOST_NAMES
     }
 
-    pub(super) fn new(obstacles: &Obstacles, grid: &Grid, range: f32, body: Body<f32>) -> Self {
+    /// What beams meet is left out if others answer for them.
+    pub(super) fn new(
+        obstacles: &Obstacles,
+        grid: &Grid,
+        range: f32,
+        body: Body<f32>,
+        is_for_beams: bool,
+    ) -> Self {
         let (walls, discs) = (obstacles.walls(), obstacles.discs());
         let limits =
             Limits::new(range, obstacles.largest(), grid.diagonal(), obstacles.joint(range));
@@ -149,6 +157,7 @@ impl Shelf {
         Self {
             surroundings: Surroundings::new(range, body, limits),
             has_discs: !discs.is_empty(),
+            is_for_beams,
             edges: table(beams::NOTHING, beams::edge),
             faces: table(beams::NOTHING_NEAR, beams::face),
             seen: bytemuck::zeroed_slice_box(shelves * BINS as usize),
@@ -371,7 +380,7 @@ impl Shelf {
             word.is_some()
         };
         let (mut seen, mut near) = (Kept::builder(), Kept::builder());
-        self.surroundings.seen(obstacles, &rect, |bin, sight| {
+        let see = |bin: u32, sight: &Sight<'_>| {
             let Sight { first, all, beyond, joint } = *sight;
             let flags = if joint { JOINT } else { 0 };
             let is_named = write(&self.seen, shelf * BINS + bin, first, flags);
@@ -379,7 +388,10 @@ impl Shelf {
             if !is_named || (joint && self.large.is_some()) {
                 seen.keep(bin, all, beyond);
             }
-        });
+        };
+        if self.is_for_beams {
+            self.surroundings.seen(obstacles, &rect, see);
+        }
         self.surroundings.near(obstacles, &rect, |sector, places| {
             if !write(&self.near, shelf * SECTORS + sector, places, 0) {
                 near.keep(sector, places, f32::INFINITY);

@@ -1,0 +1,363 @@
+//! How far everything is from everywhere, for worlds crowded with small obstacles: a robot's map,
+//! whose walls are outlines of cells of some centimetres.
+//!
+//! There lists by direction are long: much is in sight, and little of it hides anything. A beam
+//! rather walks (ray marching, as in C. Walsh and S. Karaman's RangeLibc, 2018): a cell knows how far the nearest
+//! obstacle is, so the beam may go as far at once. Where that is next to nothing, it is tested with all
+//! obstacles close by. It has ended where what it met lies nearer than it has walked.
+//!
+//! The distance is computed by the same arithmetic from the same walls as in a test of all, and so
+//! are its bits. What the walk may not come by is a wall that lies along the beam's line, to the
+//! last digit, beyond what the beam meets first: a test of all may compute such a wall as met anywhere.
+
+mod tile;
+
+use super::beams::{Beams, NOTHING, Row};
+use super::grid::Grid;
+use crate::vector::{MOST_LANES, RowOfLane, Vector, ones};
+use crate::world::Obstacles;
+use controller_core::geometry::Ray;
+use controller_core::observation::BEAMS;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU32, Ordering};
+use tile::Tile;
+
+/// Side of a cell, metres.
+const SIDE: f32 = 0.1;
+
+/// A cell lists all obstacles in the square that goes so far beyond it, metres.
+const CLOSE: f32 = 0.04;
+
+/// A beam walks this much farther than what it has met, metres: nothing else is computed as nearer
+/// there, but for what lies along its line.
+const BEYOND: f32 = 0.05;
+
+/// Obstacles in a square metre, as most of them have it around, from which on a beam walks.
+const CROWD: f64 = 5.0;
+
+/// Fewest obstacles that make a crowd.
+const FEWEST: usize = 64;
+
+/// Clearances of a world, and what is close by where they are small.
+#[derive(Debug)]
+pub(super) struct Field {
+    grid: Grid,
+    range: f32,
+    /// What rounding does to a place on a beam, metres, and more.
+    margin: f32,
+    /// From anywhere in each cell a beam may go this far, metres: bits of an `f32`, the least of which
+    /// is that of cells with a list; 0 where nobody has been yet. After all cells comes the outside.
+    clearances: Box<[AtomicU32]>,
+    tiles: Box<[OnceLock<Tile>]>,
+    has_discs: bool,
+}
+
+impl Field {
+    /// A field for beams that reach `range` metres; none where lists by direction serve better.
+    pub(super) fn new(obstacles: &Obstacles, range: f32) -> Option<Self> {
+        let [low, high] = obstacles.bounds();
+        let largest = [low, high].into_iter().flatten().map(f32::abs).fold(range, f32::max);
+        let margin = 1.0e-4 + 8.0 * f32::EPSILON * largest;
+        if margin > 0.1 * CLOSE || crowd(obstacles) < CROWD {
+            return None;
+        }
+        let grid = Grid::of_side(low, high, SIDE);
+        let clearances: Box<[AtomicU32]> = bytemuck::zeroed_slice_box(grid.cells() + 1);
+        clearances[grid.cells()].store(f32::INFINITY.to_bits(), Ordering::Relaxed);
+        let tiles = (0..grid.tiles()).map(|_| OnceLock::new()).collect();
+        let has_discs = !obstacles.discs().is_empty();
+        Some(Self { grid, range, margin, clearances, tiles, has_discs })
+    }
+
+    /// How far each of these beams goes, metres: the distance to the nearest obstacle, or infinity if
+    /// there is none within range. Lanes whose bit in `live` is not set hold anything.
+    ///
+    /// Some beams take ten times as many steps as others. A lane whose beam has ended goes on with the
+    /// next one, so that none waits.
+    #[inline(always)]
+    pub(super) fn distances<V: Vector, const N: usize>(
+        &self,
+        obstacles: &Obstacles,
+        rays: &[[Ray<V>; BEAMS]; N],
+        live: &[u32; N],
+    ) -> [[V; BEAMS]; N] {
+        let infinity = V::from(f32::INFINITY);
+        let mut distances = [[infinity; BEAMS]; N];
+        let mut walk = Walk::<V>::new();
+        let mut next = 0;
+        let mut ended = lanes::<V>();
+        loop {
+            // Beams that have ended make way for others.
+            for lane in ones(ended) {
+                walk.hand_in(lane, self.range, &mut distances);
+                while next < N * BEAMS * V::WIDTH {
+                    let beam = next;
+                    next += 1;
+                    if live[beam / (BEAMS * V::WIDTH)] >> (beam % V::WIDTH) & 1 == 1 {
+                        walk.take(lane, beam, rays);
+                        break;
+                    }
+                }
+            }
+
+            let Place { cells, column, row, at } = self.place(&walk);
+            let clearances = self.clearances(cells);
+            let is_open = walk.way.le(V::from(self.range + BEYOND));
+            let unknown = V::bits(clearances.le(V::from(0.0)) & is_open);
+            if unknown != 0 {
+                self.visit(obstacles, cells, unknown);
+                ended = 0;
+                continue;
+            }
+            let is_far = V::from(CLOSE).lt(clearances) & is_open;
+            let is_close = clearances.le(V::from(CLOSE)) & is_open;
+            let (far, close) = (V::bits(is_far), V::bits(is_close));
+            if far | close == 0 {
+                break;
+            }
+            let margin = V::from(self.margin);
+            let mut way = V::select(is_far, walk.way + (clearances - margin), walk.way);
+            // Together they take as many tests as the longest list has obstacles.
+            if far == 0 || close.count_ones() >= V::WIDTH as u32 * 5 / 8 {
+                let close_by = self.close_by(column, row, close);
+                let mut beams = Beams::met(walk.ray, walk.near);
+                for round in 0..close_by.longest {
+                    let rows = V::rows(CloseInRound { lists: &close_by.lists, round });
+                    if self.has_discs {
+                        beams.any(rows);
+                    } else {
+                        beams.wall(rows);
+                    }
+                }
+                walk.near = V::select(is_close, beams.near(), walk.near);
+                // To the edge of the square that the list covers.
+                let half = V::from(0.5 * self.grid.side() as f32 + CLOSE);
+                let centre = self.grid.centre(column, row);
+                let x = half + forward(centre.0 - at.0, walk.ray.direction.0);
+                let y = half + forward(centre.1 - at.1, walk.ray.direction.1);
+                let across = (x * walk.per_step.0).min(y * walk.per_step.1);
+                way = V::select(is_close, way + (across - margin), way);
+                let has_met = (walk.near + V::from(BEYOND)).le(way);
+                way = V::select(has_met, infinity, way);
+            }
+            walk.way = way;
+            ended = (far | close) & !V::bits(way.le(V::from(self.range + BEYOND)));
+        }
+        self.find_from_outside(obstacles, rays, live, &mut distances);
+        distances
+    }
+
+    /// Which of the points may be so close to an obstacle, as bits: where nobody has been yet, or
+    /// outside of all cells, any may.
+    #[inline(always)]
+    pub(super) fn may_be_within<V: Vector>(&self, point: (V, V), distance: f32) -> u32 {
+        let cells = self.grid.locate(point);
+        let is_close = self.clearances(cells).le(V::from(distance + self.margin));
+        V::bits(is_close | V::from(self.grid.cells() as f32).le(cells))
+    }
+
+    /// Where the beams of a walk are.
+    #[inline(always)]
+    fn place<V: Vector>(&self, walk: &Walk<V>) -> Place<V> {
+        let Ray { origin: (x, y), direction: (dx, dy) } = walk.ray;
+        let at = (x + dx * walk.way, y + dy * walk.way);
+        let (cells, column, row) = self.grid.locate_in(at);
+        Place { cells, column, row, at }
+    }
+
+    /// How far from each of these cells a beam may go.
+    #[inline(always)]
+    fn clearances<V: Vector>(&self, cells: V) -> V {
+        let places = cells.places();
+        let mut clearances = V::from(0.0);
+        for (lane, clearance) in clearances.lanes_mut().iter_mut().enumerate() {
+            let bits = self.clearances[places[lane] as usize].load(Ordering::Relaxed);
+            *clearance = f32::from_bits(bits);
+        }
+        clearances
+    }
+
+    /// What is close to the cells of these lanes.
+    #[inline(always)]
+    fn close_by<V: Vector>(&self, column: V, row: V, lanes: u32) -> CloseBy<'_> {
+        let (columns, rows) = (column.places(), row.places());
+        let mut all = CloseBy { lists: [&[]; MOST_LANES], longest: 0 };
+        for lane in ones(lanes) {
+            let (tile, place) = self.grid.in_tile(columns[lane], rows[lane]);
+            if let Some(tile) = self.tiles[tile].get() {
+                let list = tile.close_by(place);
+                all.lists[lane] = list;
+                all.longest = all.longest.max(list.len());
+            }
+        }
+        all
+    }
+
+    /// Looks at the tiles of the cells of these lanes.
+    #[cold]
+    #[inline(never)]
+    fn visit<V: Vector>(&self, obstacles: &Obstacles, cells: V, lanes: u32) {
+        for lane in ones(lanes) {
+            let tile = self.grid.tile(cells.lanes()[lane] as usize);
+            let known = self.tiles[tile].get_or_init(|| Tile::new(&self.grid, tile, obstacles));
+            // By each who finds it unwritten; they all write the same.
+            for (cell, place) in self.grid.cells_of_tile(tile) {
+                self.clearances[cell].store(known.clearance(place).to_bits(), Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// Asks all obstacles for beams that begin outside of all cells.
+    #[inline(always)]
+    fn find_from_outside<V: Vector, const N: usize>(
+        &self,
+        obstacles: &Obstacles,
+        rays: &[[Ray<V>; BEAMS]; N],
+        live: &[u32; N],
+        distances: &mut [[V; BEAMS]; N],
+    ) {
+        let cells = V::from(self.grid.cells() as f32);
+        for car in 0..N {
+            for beam in 0..BEAMS {
+                let ray = &rays[car][beam];
+                let lost = V::bits(cells.le(self.grid.locate(ray.origin))) & live[car];
+                if lost != 0 {
+                    self.find(obstacles, ray, lost, &mut distances[car][beam]);
+                }
+            }
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn find<V: Vector>(&self, obstacles: &Obstacles, ray: &Ray<V>, lanes: u32, distance: &mut V) {
+        for lane in ones(lanes) {
+            let at = |(x, y): (V, V)| (x.lanes()[lane], y.lanes()[lane]);
+            let ray = Ray { origin: at(ray.origin), direction: at(ray.direction) };
+            let found = obstacles.distance(&ray, self.range);
+            distance.lanes_mut()[lane] = if found <= self.range { found } else { f32::INFINITY };
+        }
+    }
+}
+
+/// Where beams are.
+struct Place<V> {
+    cells: V,
+    column: V,
+    row: V,
+    at: (V, V),
+}
+
+/// Beams on their way, one in each lane.
+struct Walk<V> {
+    /// Which beam it is, counted lane by lane, beam by beam, car by car.
+    beam: [usize; MOST_LANES],
+    ray: Ray<V>,
+    /// Metres along x and y, as metres of the way; infinite along an axis.
+    per_step: (V, V),
+    /// How far all obstacles have been looked for, metres; infinite where no beam is.
+    way: V,
+    /// The nearest of what has been met.
+    near: V,
+}
+
+/// Stands for no beam.
+const NO_BEAM: usize = usize::MAX;
+
+impl<V: Vector> Walk<V> {
+    /// No beam yet.
+    #[inline(always)]
+    fn new() -> Self {
+        let (zero, infinity) = (V::from(0.0), V::from(f32::INFINITY));
+        Self {
+            beam: [NO_BEAM; MOST_LANES],
+            ray: Ray { origin: (zero, zero), direction: (zero, zero) },
+            per_step: (infinity, infinity),
+            way: infinity,
+            near: infinity,
+        }
+    }
+
+    /// Puts a beam into a lane.
+    #[inline(always)]
+    fn take<const N: usize>(&mut self, lane: usize, beam: usize, rays: &[[Ray<V>; BEAMS]; N]) {
+        let (vector, from) = (beam / V::WIDTH, beam % V::WIDTH);
+        let ray = &rays[vector / BEAMS][vector % BEAMS];
+        let (dx, dy) = (ray.direction.0.lanes()[from], ray.direction.1.lanes()[from]);
+        self.beam[lane] = beam;
+        self.ray.origin.0.lanes_mut()[lane] = ray.origin.0.lanes()[from];
+        self.ray.origin.1.lanes_mut()[lane] = ray.origin.1.lanes()[from];
+        self.ray.direction.0.lanes_mut()[lane] = dx;
+        self.ray.direction.1.lanes_mut()[lane] = dy;
+        self.per_step.0.lanes_mut()[lane] = 1.0 / dx.abs();
+        self.per_step.1.lanes_mut()[lane] = 1.0 / dy.abs();
+        self.way.lanes_mut()[lane] = 0.0;
+        self.near.lanes_mut()[lane] = f32::INFINITY;
+    }
+
+    /// Writes down how far the beam in a lane goes, which then is empty.
+    #[inline(always)]
+    fn hand_in<const N: usize>(
+        &mut self,
+        lane: usize,
+        range: f32,
+        distances: &mut [[V; BEAMS]; N],
+    ) {
+        let beam = std::mem::replace(&mut self.beam[lane], NO_BEAM);
+        self.way.lanes_mut()[lane] = f32::INFINITY;
+        if beam != NO_BEAM {
+            let near = self.near.lanes()[lane];
+            let vector = beam / V::WIDTH;
+            // The sum has the positive zero, whichever was met.
+            let distance = if near <= range { near + 0.0 } else { f32::INFINITY };
+            distances[vector / BEAMS][vector % BEAMS].lanes_mut()[beam % V::WIDTH] = distance;
+        }
+    }
+}
+
+/// All lanes, as bits.
+#[inline(always)]
+fn lanes<V: Vector>() -> u32 {
+    u32::MAX >> (u32::BITS - V::WIDTH as u32)
+}
+
+/// An offset as seen in this direction along the same axis: positive ahead.
+#[inline(always)]
+fn forward<V: Vector>(offset: V, direction: V) -> V {
+    V::select(direction.lt(V::from(0.0)), -offset, offset)
+}
+
+/// Obstacles close to the cell of each lane.
+struct CloseBy<'a> {
+    lists: [&'a [Row]; MOST_LANES],
+    longest: usize,
+}
+
+/// One of them for each lane, or nothing.
+struct CloseInRound<'a> {
+    lists: &'a [&'a [Row]; MOST_LANES],
+    round: usize,
+}
+
+impl RowOfLane for CloseInRound<'_> {
+    #[inline(always)]
+    fn row(&self, lane: usize) -> &Row {
+        self.lists[lane].get(self.round).unwrap_or(&NOTHING)
+    }
+}
+
+/// How many obstacles there are in the square metre in which an obstacle lies, on average over all
+/// obstacles; none where they are few.
+fn crowd(obstacles: &Obstacles) -> f64 {
+    let walls = obstacles.walls().iter().map(|wall| (wall.a.0 + wall.b.0, wall.a.1 + wall.b.1));
+    let discs = obstacles.discs().iter().map(|disc| (2.0 * disc.centre.0, 2.0 * disc.centre.1));
+    let mut squares: Vec<[i64; 2]> =
+        walls.chain(discs).map(|(x, y)| [x, y].map(|twice| (0.5 * twice).floor() as i64)).collect();
+    if squares.len() < FEWEST {
+        return 0.0;
+    }
+    squares.sort_unstable();
+    let groups = squares.chunk_by(|a, b| a == b);
+    let pairs: usize = groups.map(|group| group.len() * group.len()).sum();
+    pairs as f64 / squares.len() as f64
+}
