@@ -361,3 +361,28 @@ fn crowd(obstacles: &Obstacles) -> f64 {
     let pairs: usize = groups.map(|group| group.len() * group.len()).sum();
     pairs as f64 / squares.len() as f64
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario;
+    use crate::world::World;
+
+    fn is_crowded(name: &str) -> bool {
+        let source = scenario::find(name).unwrap();
+        let scenario = scenario::load(&source, None, &[]).unwrap();
+        let world = World::new(&scenario).unwrap();
+        let (walls, discs) = (world.segments().to_vec(), world.discs().to_vec());
+        Field::new(&Obstacles::new(walls, discs), 10.0).is_some()
+    }
+
+    #[test]
+    fn beams_walk_in_maps_and_among_cylinders_and_not_in_rooms() {
+        for name in ["depot", "tb3_sandbox", "barn_000", "barn_264"] {
+            assert!(is_crowded(name), "{name}");
+        }
+        for name in ["open", "obstacles", "complex", "medium_maze"] {
+            assert!(!is_crowded(name), "{name}");
+        }
+    }
+}

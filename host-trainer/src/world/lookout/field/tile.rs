@@ -148,3 +148,72 @@ fn clearances(grid: &Grid, first: &Rect, obstacles: &Obstacles) -> Box<[f32]> {
     let clearance = |(x, y)| (grid.side() * f64::from(square(x, y)).sqrt()) as f32;
     cells.map(|cell| clearance(cell).max(CLOSE)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seed::{Purpose, RunSeed};
+    use crate::world::shape::{dot, length, minus};
+    use controller_core::geometry::{Disc, Segment};
+
+    /// Between convex shapes that do not meet, some corner or end is nearest.
+    fn distance(shape: &Shape, rect: &Rect) -> f64 {
+        let [a, b] = shape.ends;
+        let to_shape = rect.corners().map(|corner| {
+            let along = dot(minus(corner, a), shape.direction).clamp(0.0, shape.length);
+            let foot = [a[0] + along * shape.direction[0], a[1] + along * shape.direction[1]];
+            length(minus(corner, foot))
+        });
+        let to_rect = [a, b].map(|end| {
+            let beyond = |axis: usize| {
+                (rect.low[axis] - end[axis]).max(end[axis] - rect.high[axis]).max(0.0)
+            };
+            length([beyond(0), beyond(1)])
+        });
+        to_shape.into_iter().chain(to_rect).fold(f64::INFINITY, f64::min) - shape.radius
+    }
+
+    /// The oracle measures every obstacle from every cell.
+    #[test]
+    fn clearances_are_not_too_large_and_lists_are_complete() {
+        let mut random = RunSeed(5).stream(Purpose::Episode, 0, 0);
+        let mut wall = |reach: f32| {
+            let (x, y) = (random.within(0.0, 7.0), random.within(0.0, 5.0));
+            let end = (x + random.within(-reach, reach), y + random.within(-reach, reach));
+            Segment { a: (x, y), b: end }
+        };
+        let walls: Vec<_> = (0..40).map(|n| wall(if n == 0 { 9.0 } else { 0.1 })).collect();
+        let discs = vec![Disc { centre: (1.0, 4.0), radius: 0.4 }];
+        let shapes: Vec<Shape> =
+            walls.iter().map(Shape::from).chain(discs.iter().map(Shape::from)).collect();
+        let obstacles = Obstacles::new(walls, discs);
+        let [low, high] = obstacles.bounds();
+        let grid = Grid::of_side(low, high, 0.1);
+        let (mut free, mut listed) = (0, 0);
+        for tile in 0..grid.tiles() {
+            let known = Tile::new(&grid, tile, &obstacles);
+            for (cell, place) in grid.cells_of_tile(tile) {
+                let rect = grid.rect(cell);
+                let distances = shapes.iter().map(|shape| distance(shape, &rect));
+                let nearest = distances.fold(f64::INFINITY, f64::min);
+                let clearance = f64::from(known.clearance(place));
+                if clearance > f64::from(CLOSE) {
+                    // Cells overlap by what rounding makes of them.
+                    assert!(clearance <= nearest + 1e-5, "cell {cell}: {clearance}, {nearest}");
+                    assert!(clearance > 0.6 * nearest - 0.3, "cell {cell}: {clearance}, {nearest}");
+                    free += 1;
+                } else {
+                    let square = rect.grown(f64::from(CLOSE) - 1e-5);
+                    let close = shapes.iter().filter(|shape| shape.distance(&square) <= 0.0);
+                    let list = known.close_by(place);
+                    assert!(list.len() >= close.count(), "cell {cell}: {} in its list", list.len());
+                    listed += list.len();
+                }
+            }
+        }
+        assert!(
+            free > 1000 && listed > 200,
+            "{free} cells are free, {listed} obstacles are listed"
+        );
+    }
+}
