@@ -37,7 +37,7 @@ pub(super) struct Shelf {
     near: Box<[AtomicU16]>,
     words: Words,
     /// What words do not say, by shelf; set once the shelf's words are written.
-    lists: Box<[OnceLock<Lists>]>,
+    lists: Box<[OnceLock<Box<Lists>>]>,
     large: Option<Large>,
 }
 
@@ -117,7 +117,8 @@ pub struct Survey {
     pub cells: usize,
     /// Memory that the visited cells take, bytes.
     pub bytes: usize,
-    /// Obstacles that a beam may meet first, for each visited cell and each direction, ascending.
+    /// Obstacles that a beam may meet first, for each visited cell and each direction, ascending; none
+    /// where beams walk.
     pub seen: Vec<usize>,
     /// Obstacles within the body's reach, for each visited cell and each heading, ascending.
     pub near: Vec<usize>,
@@ -160,7 +161,11 @@ impl Shelf {
             is_for_beams,
             edges: table(beams::NOTHING, beams::edge),
             faces: table(beams::NOTHING_NEAR, beams::face),
-            seen: bytemuck::zeroed_slice_box(shelves * BINS as usize),
+            seen: bytemuck::zeroed_slice_box(if is_for_beams {
+                shelves * BINS as usize
+            } else {
+                0
+            }),
             near: bytemuck::zeroed_slice_box(shelves * SECTORS as usize),
             words: Words::new(),
             lists: (0..shelves).map(|_| OnceLock::new()).collect(),
@@ -301,7 +306,7 @@ impl Shelf {
     ) -> Option<Sure> {
         let spot @ Spot { shelf, legend } = self.spot(grid, obstacles, cell)?;
         let lists = self.lists[shelf as usize]
-            .get_or_init(|| self.look_around(grid, obstacles, cell, spot));
+            .get_or_init(|| Box::new(self.look_around(grid, obstacles, cell, spot)));
         let (kept, part, numbers, table, at) = match question {
             Question::Seen(bin) => (&lists.seen, bin, &self.seen, &self.edges, shelf * BINS + bin),
             Question::Near(sector) => {
@@ -437,7 +442,7 @@ impl Shelf {
         Survey {
             cells: cells.len(),
             bytes: cells.len() * words + legends + long,
-            seen: counts(BINS, Question::Seen),
+            seen: if self.is_for_beams { counts(BINS, Question::Seen) } else { Vec::new() },
             near: counts(SECTORS, Question::Near),
         }
     }
