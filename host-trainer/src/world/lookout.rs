@@ -21,7 +21,7 @@
 //! | `words`, `asked` | how it is kept in few bytes, and read for many beams at once |
 //! | `field` | how far beams may go at once, where lists would be long |
 //! | `legends` | what names mean where obstacles are many |
-//! | `kept` | what does not fit into these |
+//! | `kept` | what does not fit into words |
 //! | `cell`, `candidate`, `cone`, `discs`, `shade`, `reach`, `rounding` | how it is found, and what may be left out |
 
 mod asked;
@@ -273,6 +273,11 @@ impl Lookout {
             };
         });
         if known.is_some() { touches } else { self.obstacles.touch(&self.body, pose) }
+    }
+
+    /// Whether beams walk through a field of distances, as in a crowd, instead of asking lists.
+    pub fn beams_walk(&self) -> bool {
+        self.field.is_some()
     }
 
     /// The cells visited so far.

@@ -3,7 +3,7 @@
 //! A chain of walls that meet end to end hides what is farther off when all beams cross it: its
 //! two free ends lie on different sides of every beam's line, and all of it lies ahead. What
 //! rounding computes near an end of a wall is another matter: a beam that passes any listed
-//! wall's end within [`Limits::slack`] gets its answer from all obstacles instead. A beam that
+//! wall's end within [`Limits::slack`] gets its answer from a longer list, or all obstacles, instead. A beam that
 //! does not is sure to meet the chain, no later than at its farthest point.
 
 use super::candidate::Candidate;

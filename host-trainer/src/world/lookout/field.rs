@@ -7,8 +7,9 @@
 //! obstacles close by. It has ended where what it met lies nearer than it has walked.
 //!
 //! The distance is computed by the same arithmetic from the same walls as in a test of all, and so
-//! are its bits. What the walk may not come by is a wall that lies along the beam's line, to the
-//! last digit, beyond what the beam meets first: a test of all may compute such a wall as met anywhere.
+//! are its bits. What the walk may not come by is a wall that runs along the beam's line, within some
+//! ten-thousandths of a radian, and begins beyond what the beam meets first: rounding alone
+//! decides where a test of all computes it as met, which may be before it begins.
 
 mod tile;
 
@@ -28,9 +29,10 @@ const SIDE: f32 = 0.1;
 /// A cell lists all obstacles in the square that goes so far beyond it, metres.
 const CLOSE: f32 = 0.04;
 
-/// A beam walks this much farther than what it has met, metres: nothing else is computed as nearer
-/// there, but for what lies along its line.
+/// A beam walks this much farther than what it has met, metres, or this part of the longest way in play:
+/// beyond, nothing is computed as nearer but what runs along its line (`rounding`).
 const BEYOND: f32 = 0.05;
+const BEYOND_SHARE: f32 = 0.005;
 
 /// Obstacles in a square metre, as most of them have it around, from which on a beam walks.
 const CROWD: f64 = 5.0;
@@ -43,6 +45,7 @@ const FEWEST: usize = 64;
 pub(super) struct Field {
     grid: Grid,
     range: f32,
+    beyond: f32,
     /// What rounding does to a place on a beam, metres, and more.
     margin: f32,
     /// From anywhere in each cell a beam may go this far, metres: bits of an `f32`, the least of which
@@ -56,8 +59,11 @@ impl Field {
     /// A field for beams that reach `range` metres; none where lists by direction serve better.
     pub(super) fn new(obstacles: &Obstacles, range: f32) -> Option<Self> {
         let [low, high] = obstacles.bounds();
-        let largest = [low, high].into_iter().flatten().map(f32::abs).fold(range, f32::max);
-        let margin = 1.0e-4 + 8.0 * f32::EPSILON * largest;
+        let farthest = [low, high].into_iter().flatten().map(f32::abs).fold(range, f32::max);
+        let largest = obstacles.largest() as f32;
+        // For places on beams, and for contacts, which is more.
+        let margin = 1.0e-4 + 24.0 * f32::EPSILON * (farthest + largest);
+        let beyond = BEYOND.max(BEYOND_SHARE * (range + largest));
         if margin > 0.1 * CLOSE || crowd(obstacles) < CROWD {
             return None;
         }
@@ -66,7 +72,7 @@ impl Field {
         clearances[grid.cells()].store(f32::INFINITY.to_bits(), Ordering::Relaxed);
         let tiles = (0..grid.tiles()).map(|_| OnceLock::new()).collect();
         let has_discs = !obstacles.discs().is_empty();
-        Some(Self { grid, range, margin, clearances, tiles, has_discs })
+        Some(Self { grid, range, beyond, margin, clearances, tiles, has_discs })
     }
 
     /// How far each of these beams goes, metres: the distance to the nearest obstacle, or infinity if
@@ -102,7 +108,8 @@ impl Field {
 
             let Place { cells, column, row, at } = self.place(&walk);
             let clearances = self.clearances(cells);
-            let is_open = walk.way.le(V::from(self.range + BEYOND));
+            let limit = V::from(self.range + self.beyond);
+            let is_open = walk.way.le(limit);
             let unknown = V::bits(clearances.le(V::from(0.0)) & is_open);
             if unknown != 0 {
                 self.visit(obstacles, cells, unknown);
@@ -137,11 +144,10 @@ impl Field {
                 let y = half + forward(centre.1 - at.1, walk.ray.direction.1);
                 let across = (x * walk.per_step.0).min(y * walk.per_step.1);
                 way = V::select(is_close, way + (across - margin), way);
-                let has_met = (walk.near + V::from(BEYOND)).le(way);
-                way = V::select(has_met, infinity, way);
             }
-            walk.way = way;
-            ended = (far | close) & !V::bits(way.le(V::from(self.range + BEYOND)));
+            let has_met = (walk.near + V::from(self.beyond)).le(way);
+            walk.way = V::select(has_met, infinity, way);
+            ended = (far | close) & !V::bits(walk.way.le(limit));
         }
         self.find_from_outside(obstacles, rays, live, &mut distances);
         distances
@@ -171,7 +177,7 @@ impl Field {
         let places = cells.places();
         let mut clearances = V::from(0.0);
         for (lane, clearance) in clearances.lanes_mut().iter_mut().enumerate() {
-            let bits = self.clearances[places[lane] as usize].load(Ordering::Relaxed);
+            let bits = self.clearances[places[lane] as usize].load(Ordering::Acquire);
             *clearance = f32::from_bits(bits);
         }
         clearances
@@ -202,7 +208,7 @@ impl Field {
             let known = self.tiles[tile].get_or_init(|| Tile::new(&self.grid, tile, obstacles));
             // By each who finds it unwritten; they all write the same.
             for (cell, place) in self.grid.cells_of_tile(tile) {
-                self.clearances[cell].store(known.clearance(place).to_bits(), Ordering::Relaxed);
+                self.clearances[cell].store(known.clearance(place).to_bits(), Ordering::Release);
             }
         }
     }

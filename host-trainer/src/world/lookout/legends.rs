@@ -2,9 +2,9 @@
 //!
 //! A legend says which obstacle each name stands for. Where there are few enough obstacles around,
 //! all cells of a tile share one, so that neighbours find what they mean in the same few lines of the
-//! cache. In a crowd, as among the ragged walls of a robot's map, each cell has its own, of
-//! what is seen from there.
+//! cache. Where there are more, each cell has its own, of what matters there.
 
+use super::shelf::MOST_SHELVES;
 use super::words::NAME;
 use crate::world::Obstacles;
 use crate::world::shape::Rect;
@@ -14,8 +14,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// Names of obstacles; name 0 is that of nothing.
 pub(super) const MOST_NAMES: usize = (1 << NAME) - 1;
 
-/// Most legends; the first is that of cells where nobody has been.
-const MOST_LEGENDS: usize = 1 << 17;
+/// Most legends, one for each shelf; the first is that of cells where nobody has been.
+const MOST_LEGENDS: usize = MOST_SHELVES;
 
 /// Each obstacle's place in the world plus 1, by legend and name; 0 is nothing.
 #[derive(Debug)]
@@ -68,13 +68,13 @@ fn index(legend: u32, name: u8) -> u32 {
 }
 
 impl Legends {
-    /// For so many tiles, whose cells look `range` metres far.
-    pub(super) fn new(tiles: usize, range: f32) -> Self {
+    /// For so many tiles, to whose cells obstacles matter within `reach` metres.
+    pub(super) fn new(tiles: usize, reach: f32) -> Self {
         Self {
             meanings: Meanings(bytemuck::zeroed_box()),
             taken: AtomicU32::new(1),
             tiles: (0..tiles).map(|_| OnceLock::new()).collect(),
-            reach: f64::from(range) * 1.001 + 0.01,
+            reach: f64::from(reach) * 1.001 + 0.01,
         }
     }
 
@@ -104,9 +104,9 @@ impl Legends {
 
     /// How a cell of this tile names obstacles; it has asked for its legend before.
     pub(super) fn naming(&self, tile: usize) -> Naming<'_> {
-        match self.tiles[tile].get() {
-            Some(Tile::Shared(_, places)) => Naming::Shared(places),
-            _ => Naming::Own(Vec::new()),
+        match self.tiles[tile].get().expect("a cell has its legend before it names anything") {
+            Tile::Shared(_, places) => Naming::Shared(places),
+            Tile::Crowded => Naming::Own(Vec::new()),
         }
     }
 

@@ -4,7 +4,7 @@
 //! A wall is in the shade of a chain that meets end to end if the chain's free ends lie on
 //! different sides of every line on which a beam meets the wall, and the wall lies behind each
 //! line of the chain. What a beam within [`Limits::slack`] of an end meets is left open, as ever:
-//! it is answered by all obstacles. That is why an end may lie on such a line, and even a little
+//! it is answered by a longer list, or all obstacles. That is why an end may lie on such a line, and even a little
 //! on its other side: a wall can share it with the chain.
 //!
 //! [`Limits::slack`]: super::rounding::Limits::slack

@@ -19,7 +19,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU16, AtomicU32, AtomicU64, Ordering};
 
 /// Most cells that are remembered in a large world; beyond, all obstacles are asked.
-const MOST_SHELVES: usize = 1 << 16;
+pub(super) const MOST_SHELVES: usize = 1 << 16;
 
 /// Words of every cell.
 #[derive(Debug)]
@@ -148,11 +148,14 @@ impl Shelf {
             let named = Table::new(&rows[..rows.len().min(1 << NAME)]);
             Rows { all: rows.into(), named }
         };
+        let Body { rear, front, half_width } = body;
+        let body_reach = libm::hypotf(rear.abs().max(front.abs()), half_width);
+        let reach = if is_for_beams { range.max(body_reach) } else { body_reach };
         let is_large = Self::are_many(obstacles) || grid.cells() >= MOST_SHELVES;
         let large = is_large.then(|| Large {
             spots: bytemuck::zeroed_slice_box(grid.cells() + 1),
             taken: AtomicU32::new(1),
-            legends: Legends::new(grid.tiles(), range),
+            legends: Legends::new(grid.tiles(), reach),
         });
         let shelves = if large.is_some() { MOST_SHELVES } else { grid.cells() + 1 };
         Self {
@@ -343,7 +346,7 @@ impl Shelf {
         }
         let Some(large) = &self.large else { return Some(Spot { shelf: cell, legend: 0 }) };
         let mine = &large.spots[cell as usize];
-        let known = mine.load(Ordering::Relaxed);
+        let known = mine.load(Ordering::Acquire);
         if known != 0 {
             return Some(Spot::of(known));
         }
@@ -358,7 +361,7 @@ impl Shelf {
         let legend = large.legends.of(tile, || grid.tile_rect(tile), obstacles)?;
         let new = Spot { shelf: new, legend };
         // Another thread may have been faster; then this shelf stays empty.
-        match mine.compare_exchange(0, new.bits(), Ordering::Relaxed, Ordering::Relaxed) {
+        match mine.compare_exchange(0, new.bits(), Ordering::AcqRel, Ordering::Acquire) {
             Ok(_) => Some(new),
             Err(theirs) => Some(Spot::of(theirs)),
         }
@@ -373,16 +376,20 @@ impl Shelf {
         };
         // Returns whether there is a word that names all of these places.
         let mut write = |numbers: &[AtomicU16], at: u32, places: &[u32], flags: Word| {
-            let names = places.iter().map(|place| self.name(legend, &mut naming, *place));
-            let all = (places.len() <= NAMES).then_some(flags);
-            let word = names
-                .zip(0..)
-                .fold(all, |word, (name, n)| Some(word? | Word::from(name?) << (n * NAME)));
+            let named = |(n, place): (u32, &u32)| {
+                let name = self.name(legend, &mut naming, *place)?;
+                Some(Word::from(name) << (n * NAME))
+            };
+            let word = if places.len() <= NAMES {
+                let names: Option<Vec<Word>> = (0..).zip(places).map(named).collect();
+                names.map(|names| names.into_iter().fold(flags, |word, name| word | name))
+            } else {
+                None
+            };
+            // The first word says that nothing is known.
             let number = word.and_then(|word| self.words.number(word));
-            let number = number.or_else(|| self.words.number(UNKNOWN));
-            // Without a number, it is asked anew whether somebody has looked around.
             numbers[at as usize].store(number.unwrap_or(0), Ordering::Release);
-            word.is_some()
+            number.is_some()
         };
         let (mut seen, mut near) = (Kept::builder(), Kept::builder());
         let see = |bin: u32, sight: &Sight<'_>| {
