@@ -13,7 +13,7 @@
 
 mod tile;
 
-use super::beams::{Beams, NOTHING, Row};
+use super::beams::{self, Beams, NOTHING, Row};
 use super::grid::Grid;
 use crate::vector::{MOST_LANES, RowOfLane, Vector, ones};
 use crate::world::Obstacles;
@@ -29,10 +29,14 @@ const SIDE: f32 = 0.1;
 /// A cell lists all obstacles in the square that goes so far beyond it, metres.
 const CLOSE: f32 = 0.04;
 
-/// A beam walks this much farther than what it has met, metres, or this part of the longest way in play:
-/// beyond, nothing is computed as nearer but what runs along its line (`rounding`).
+/// A beam walks this much farther than what it has met, metres, or this part of its range: beyond, nothing
+/// is computed as nearer but what runs along its line (`rounding`).
 const BEYOND: f32 = 0.05;
 const BEYOND_SHARE: f32 = 0.005;
+
+/// Most walls longer than the beams' range, which every beam is tested with first: rounding moves them
+/// the farthest.
+const MOST_LONG: usize = 16;
 
 /// Obstacles in a square metre, as most of them have it around, from which on a beam walks.
 const CROWD: f64 = 5.0;
@@ -52,6 +56,8 @@ pub(super) struct Field {
     /// is that of cells with a list; 0 where nobody has been yet. After all cells comes the outside.
     clearances: Box<[AtomicU32]>,
     tiles: Box<[OnceLock<Tile>]>,
+    /// The walls that are longer than the range.
+    long: Box<[Row]>,
     has_discs: bool,
 }
 
@@ -63,8 +69,14 @@ impl Field {
         let largest = obstacles.largest() as f32;
         // For places on beams, and for contacts, which is more.
         let margin = 1.0e-4 + 24.0 * f32::EPSILON * (farthest + largest);
-        let beyond = BEYOND.max(BEYOND_SHARE * (range + largest));
-        if margin > 0.1 * CLOSE || crowd(obstacles) < CROWD {
+        let beyond = BEYOND.max(BEYOND_SHARE * range);
+        let long: Box<[Row]> = obstacles
+            .walls()
+            .iter()
+            .filter(|wall| libm::hypotf(wall.b.0 - wall.a.0, wall.b.1 - wall.a.1) > range)
+            .map(beams::edge)
+            .collect();
+        if margin > 0.1 * CLOSE || long.len() > MOST_LONG || crowd(obstacles) < CROWD {
             return None;
         }
         let grid = Grid::of_side(low, high, SIDE);
@@ -72,7 +84,7 @@ impl Field {
         clearances[grid.cells()].store(f32::INFINITY.to_bits(), Ordering::Relaxed);
         let tiles = (0..grid.tiles()).map(|_| OnceLock::new()).collect();
         let has_discs = !obstacles.discs().is_empty();
-        Some(Self { grid, range, beyond, margin, clearances, tiles, has_discs })
+        Some(Self { grid, range, beyond, margin, clearances, tiles, long, has_discs })
     }
 
     /// How far each of these beams goes, metres: the distance to the nearest obstacle, or infinity if
@@ -89,6 +101,7 @@ impl Field {
     ) -> [[V; BEAMS]; N] {
         let infinity = V::from(f32::INFINITY);
         let mut distances = [[infinity; BEAMS]; N];
+        let begun = self.long_ahead(rays);
         let mut walk = Walk::<V>::new();
         let mut next = 0;
         let mut ended = lanes::<V>();
@@ -100,7 +113,7 @@ impl Field {
                     let beam = next;
                     next += 1;
                     if live[beam / (BEAMS * V::WIDTH)] >> (beam % V::WIDTH) & 1 == 1 {
-                        walk.take(lane, beam, rays);
+                        walk.take(lane, beam, rays, &begun);
                         break;
                     }
                 }
@@ -151,6 +164,26 @@ impl Field {
         }
         self.find_from_outside(obstacles, rays, live, &mut distances);
         distances
+    }
+
+    /// How far each beam goes to the long walls alone.
+    #[inline(always)]
+    fn long_ahead<V: Vector, const N: usize>(
+        &self,
+        rays: &[[Ray<V>; BEAMS]; N],
+    ) -> [[V; BEAMS]; N] {
+        let mut ahead = [[V::from(f32::INFINITY); BEAMS]; N];
+        for row in &self.long {
+            let [x, y, ex, ey] = *row;
+            for car in 0..N {
+                for beam in 0..BEAMS {
+                    let mut beams = Beams::met(rays[car][beam], ahead[car][beam]);
+                    beams.wall([V::from(x), V::from(y), V::from(ex), V::from(ey)]);
+                    ahead[car][beam] = beams.near();
+                }
+            }
+        }
+        ahead
     }
 
     /// Which of the points may be so close to an obstacle, as bits: where nobody has been yet, or
@@ -286,7 +319,13 @@ impl<V: Vector> Walk<V> {
 
     /// Puts a beam into a lane.
     #[inline(always)]
-    fn take<const N: usize>(&mut self, lane: usize, beam: usize, rays: &[[Ray<V>; BEAMS]; N]) {
+    fn take<const N: usize>(
+        &mut self,
+        lane: usize,
+        beam: usize,
+        rays: &[[Ray<V>; BEAMS]; N],
+        begun: &[[V; BEAMS]; N],
+    ) {
         let (vector, from) = (beam / V::WIDTH, beam % V::WIDTH);
         let ray = &rays[vector / BEAMS][vector % BEAMS];
         let (dx, dy) = (ray.direction.0.lanes()[from], ray.direction.1.lanes()[from]);
@@ -298,7 +337,7 @@ impl<V: Vector> Walk<V> {
         self.per_step.0.lanes_mut()[lane] = 1.0 / dx.abs();
         self.per_step.1.lanes_mut()[lane] = 1.0 / dy.abs();
         self.way.lanes_mut()[lane] = 0.0;
-        self.near.lanes_mut()[lane] = f32::INFINITY;
+        self.near.lanes_mut()[lane] = begun[vector / BEAMS][vector % BEAMS].lanes()[from];
     }
 
     /// Writes down how far the beam in a lane goes, which then is empty.
