@@ -211,9 +211,8 @@ impl Lookout {
     fn settle<V: Vector>(&self, ray: &Ray<V>, bins: V, open: u32, distance: &mut V) {
         let cells = self.grid.locate(ray.origin);
         for lane in (0..V::WIDTH).filter(|lane| open >> lane & 1 == 1) {
-            let at = |(x, y): (V, V)| (x.lanes()[lane], y.lanes()[lane]);
             let number = |number: V| number.lanes()[lane] as u32;
-            let ray = Ray { origin: at(ray.origin), direction: at(ray.direction) };
+            let ray = beams::in_lane(ray, lane);
             distance.lanes_mut()[lane] = self.settled(&ray, number(cells), number(bins));
         }
     }

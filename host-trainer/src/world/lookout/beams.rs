@@ -43,6 +43,12 @@ pub(super) fn are_discs<V: Vector>(rows: &[V; 4]) -> V::Mask {
     V::from(DISC).le(rows[3])
 }
 
+/// The ray of one lane.
+pub(super) fn in_lane<V: Vector>(ray: &Ray<V>, lane: usize) -> Ray<f32> {
+    let at = |(x, y): (V, V)| (x.lanes()[lane], y.lanes()[lane]);
+    Ray { origin: at(ray.origin), direction: at(ray.direction) }
+}
+
 /// Beams, and what they have met so far.
 #[derive(Clone, Copy)]
 pub(super) struct Beams<V> {

@@ -271,9 +271,7 @@ impl Field {
     #[inline(never)]
     fn find<V: Vector>(&self, obstacles: &Obstacles, ray: &Ray<V>, lanes: u32, distance: &mut V) {
         for lane in ones(lanes) {
-            let at = |(x, y): (V, V)| (x.lanes()[lane], y.lanes()[lane]);
-            let ray = Ray { origin: at(ray.origin), direction: at(ray.direction) };
-            let found = obstacles.distance(&ray, self.range);
+            let found = obstacles.distance(&beams::in_lane(ray, lane), self.range);
             distance.lanes_mut()[lane] = if found <= self.range { found } else { f32::INFINITY };
         }
     }
