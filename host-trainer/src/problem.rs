@@ -148,7 +148,7 @@ impl Problem {
         let fixed_start = episode.start_offset == 0.0 && episode.start_turn == 0.0;
         let fixed_car = episode.randomise == RandomiseSpec::default();
         let exact = sensors.noise == 0.0 && sensors.dropout == 0.0;
-        same_pairs && fixed_start && fixed_car && exact && training.stressed_share == 0.0
+        same_pairs && fixed_start && fixed_car && exact && !training.has_stress()
     }
 }
 

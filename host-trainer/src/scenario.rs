@@ -360,6 +360,17 @@ impl TrainingSpec {
     pub const POPULATION: RangeInclusive<u32> = 2..=1_000_000;
     /// Generations that a run may have.
     pub const GENERATIONS: RangeInclusive<u32> = 1..=1_000_000;
+
+    /// Share of drives under stress at this [progress](crate::evolve::ga::progress) of the run.
+    pub fn stressed_share_at(&self, progress: f64) -> f64 {
+        let [start, end] = [self.stressed_share_start, self.stressed_share].map(f64::from);
+        start + (end - start) * progress
+    }
+
+    /// Whether any drives are under stress.
+    pub fn has_stress(&self) -> bool {
+        self.stressed_share > 0.0 || self.stressed_share_start > 0.0
+    }
 }
 
 fn is_zero(share: &f32) -> bool {
@@ -413,10 +424,12 @@ pub struct TrainingSpec {
     /// champion; 0 takes the best of the last generation. No matter for listed pairs.
     pub validation_pairs: u32,
     /// Share of the last generation's drives, and of those that choose the champion, that are
-    /// made with a car as imperfect as [stress](crate::stress::in_full) makes it. It grows from
-    /// none in the first generation.
+    /// made with a car as imperfect as [stress](crate::stress::in_full) makes it.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub stressed_share: f32,
+    /// The same share of the first generation's drives; between the two it changes evenly.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub stressed_share_start: f32,
     /// Whether the run ends with the first generation in which somebody reaches the targets of
     /// all pairs.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]

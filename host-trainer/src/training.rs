@@ -307,7 +307,7 @@ impl<'a> Training<'a> {
         let genomes = self.search.ask().genes();
         let random = |pair| training_drive(self.seed, generation, pair);
         let spec = &self.problem.scenario.training;
-        let share = f64::from(spec.stressed_share) * progress(generation, spec.generations);
+        let share = spec.stressed_share_at(progress(generation, spec.generations));
         let Some(drives) = self.test_drives.of(genomes, share, &pairs, &random, stop) else {
             return Ok(None);
         };
@@ -383,7 +383,8 @@ fn run_id<'a>(
 /// setting follows a plan from the first generation to the last.
 pub fn depends_on_generations(scenario: &Scenario) -> bool {
     let Scenario { pairs, training, .. } = scenario;
-    pairs.count_end.is_some() || training.ga.sigma_end.is_some() || training.stressed_share > 0.0
+    let stress_changes = training.stressed_share != training.stressed_share_start;
+    pairs.count_end.is_some() || training.ga.sigma_end.is_some() || stress_changes
 }
 
 fn no_pair(problem: &Problem, none: NoPair) -> Failure {

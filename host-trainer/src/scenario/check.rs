@@ -256,12 +256,18 @@ fn pair_in_room(scenario: &Scenario, index: usize, pair: &Pair, found: &mut Vec<
 
 /// A run ends with its targets reached only if it is the same car that drives, first and last.
 fn stress(scenario: &Scenario, found: &mut Vec<Complaint>) {
-    let TrainingSpec { stressed_share: share, until_reached, .. } = scenario.training;
-    if share > 0.0 && until_reached {
-        let title = "`training.until_reached` needs drives that are alike in each generation";
-        let detail = format!("found {share} of them under stress, expected none");
-        let complaint = Complaint::new("training.stressed_share", title, detail);
-        found.push(complaint.or_at("training.until_reached"));
+    let TrainingSpec { stressed_share, stressed_share_start, until_reached, .. } =
+        scenario.training;
+    let shares = [
+        (stressed_share, "training.stressed_share"),
+        (stressed_share_start, "training.stressed_share_start"),
+    ];
+    for (share, key) in shares {
+        if share > 0.0 && until_reached {
+            let title = "`training.until_reached` needs drives that are alike in each generation";
+            let detail = format!("found {share} of them under stress, expected none");
+            found.push(Complaint::new(key, title, detail).or_at("training.until_reached"));
+        }
     }
 }
 

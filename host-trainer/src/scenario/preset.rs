@@ -129,6 +129,7 @@ pub(super) fn paper() -> Scenario {
             weight_bound: 1.0,
             validation_pairs: 0,
             stressed_share: 0.0,
+            stressed_share_start: 0.0,
             until_reached: false,
             worlds: None,
             ga: GaSpec::PAPER,

@@ -157,6 +157,7 @@ const GEOMETRY: &[&str] = &[
     "[pairs]\nresample = true\n[training.novelty]\nneighbours = 15",
     "[pairs]\nresample = true\n[training]\nuntil_reached = true",
     "[pairs]\ncount = 5\n[training]\nuntil_reached = true\nstressed_share = 0.5",
+    "[pairs]\ncount = 5\n[training]\nuntil_reached = true\nstressed_share_start = 0.5",
     "[training]\npopulation = 5\n[training.novelty]\narchive_growth = 6",
     "[training.novelty]\nneighbours = 0",
     "[training.novelty]\nneighbors = 15",

@@ -290,11 +290,17 @@ impl Record for TrainingSpec {
         let pairs = Whole { low: 0, high: 100_000 };
         let validation = &mut self.validation_pairs;
         v.value("validation_pairs", validation, pairs, "choose the champion; 0: the last best");
-        let mut stressed = (self.stressed_share != 0.0).then_some(self.stressed_share);
-        let shares = shapes::Maybe(Number::plain(0.0, 1.0));
-        let about = "drives under stress in the last generation; none if left out";
-        v.value("stressed_share", &mut stressed, shares, about);
-        self.stressed_share = stressed.unwrap_or(0.0);
+        let ends = [
+            ("stressed_share", &mut self.stressed_share, "last"),
+            ("stressed_share_start", &mut self.stressed_share_start, "first"),
+        ];
+        for (key, share, which) in ends {
+            let mut given = (*share != 0.0).then_some(*share);
+            let shares = shapes::Maybe(Number::plain(0.0, 1.0));
+            let about = format!("drives under stress in the {which} generation; none if left out");
+            v.value(key, &mut given, shares, &about);
+            *share = given.unwrap_or(0.0);
+        }
         let mut until_reached = self.until_reached.then_some(true);
         let about = "end when somebody reaches all targets; off if left out";
         v.value("until_reached", &mut until_reached, shapes::Maybe(Flag), about);

@@ -19,7 +19,7 @@ pub(super) struct Ground {
 impl Ground {
     fn new(problem: Problem) -> Self {
         let scenario = &problem.scenario;
-        let stressed = (scenario.training.stressed_share > 0.0).then(|| {
+        let stressed = scenario.training.has_stress().then(|| {
             let car = Disturbances::of(scenario).without_chance();
             problem.disturbed(stress::in_full(car, scenario.episode.period))
         });

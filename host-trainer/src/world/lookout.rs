@@ -77,7 +77,7 @@ impl Lookout {
     pub fn new(obstacles: Arc<Obstacles>, range: f32, body: Body<f32>) -> Self {
         let [low, high] = obstacles.bounds();
         let grid = Grid::new(low, high, Shelf::are_many(&obstacles));
-        let field = Field::new(&obstacles, range);
+        let field = Field::new(&obstacles, range, &body);
         let shelf = Shelf::new(&obstacles, &grid, range, body, field.is_none());
         Self { slack: shelf.slack(), obstacles, range, body, grid, shelf, field }
     }
@@ -160,12 +160,8 @@ impl Lookout {
     ) -> [u32; N] {
         let mut live = *live;
         if let Some(field) = &self.field {
-            let Body { rear, front, half_width } = self.body;
-            let (middle, half_length) = (0.5 * (rear + front), 0.5 * (front - rear));
-            let reach = 1.001 * libm::hypotf(half_length, half_width);
             for car in 0..N {
-                let middle = poses[car].to_world(V::from(middle), V::from(0.0));
-                live[car] &= field.may_be_within(middle, reach);
+                live[car] &= field.may_touch(&poses[car]);
             }
         }
         let mut asked = Asked::<N>::new();

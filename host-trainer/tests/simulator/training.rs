@@ -239,7 +239,7 @@ fn a_search_by_novelty_does_not_look_at_the_cost() {
 /// Seeds, pairs and genomes of the first generation are the same; what a drive under stress costs is
 /// not, and neither is who chooses the champion.
 #[test]
-fn drives_are_under_stress_from_the_second_generation_on() {
+fn drives_are_under_stress_from_the_second_generation_on_or_as_soon_as_asked() {
     let first_rows = |share: &str| {
         let settings = stressed().replace("stressed_share = 1", share);
         let settings = settings.replace("resample = true", "resample = false");
@@ -252,6 +252,11 @@ fn drives_are_under_stress_from_the_second_generation_on() {
     let [calm, stressed] = ["", "stressed_share = 1"].map(first_rows);
     assert_eq!(calm[0], stressed[0]);
     assert_ne!(calm[1], stressed[1]);
+    let [always, fading] =
+        [1, 0].map(|end| first_rows(&format!("stressed_share_start = 1\nstressed_share = {end}")));
+    assert_ne!(always[0], calm[0]);
+    assert_eq!(always[0], fading[0]);
+    assert_ne!(always[1], fading[1]);
 }
 
 /// The oracle drives each pair alone, in a world made by hand as the run says it made it.

@@ -17,7 +17,8 @@ use super::beams::{self, Beams, NOTHING, Row};
 use super::grid::Grid;
 use crate::vector::{MOST_LANES, RowOfLane, Vector, ones};
 use crate::world::Obstacles;
-use controller_core::geometry::Ray;
+use controller_core::geometry::{Body, Ray};
+use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -59,11 +60,16 @@ pub(super) struct Field {
     /// The walls that are longer than the range.
     long: Box<[Row]>,
     has_discs: bool,
+    /// The circle around the body: its middle, ahead of the pose, and a little more than its radius,
+    /// metres.
+    body_middle: f32,
+    body_radius: f32,
 }
 
 impl Field {
-    /// A field for beams that reach `range` metres; none where lists by direction serve better.
-    pub(super) fn new(obstacles: &Obstacles, range: f32) -> Option<Self> {
+    /// A field for beams that reach `range` metres, and for this body; none where lists by direction
+    /// serve better.
+    pub(super) fn new(obstacles: &Obstacles, range: f32, body: &Body<f32>) -> Option<Self> {
         let [low, high] = obstacles.bounds();
         let farthest = [low, high].into_iter().flatten().map(f32::abs).fold(range, f32::max);
         let largest = obstacles.largest() as f32;
@@ -84,7 +90,19 @@ impl Field {
         clearances[grid.cells()].store(f32::INFINITY.to_bits(), Ordering::Relaxed);
         let tiles = (0..grid.tiles()).map(|_| OnceLock::new()).collect();
         let has_discs = !obstacles.discs().is_empty();
-        Some(Self { grid, range, beyond, margin, clearances, tiles, long, has_discs })
+        let Body { rear, front, half_width } = *body;
+        Some(Self {
+            grid,
+            range,
+            beyond,
+            margin,
+            clearances,
+            tiles,
+            long,
+            has_discs,
+            body_middle: 0.5 * (rear + front),
+            body_radius: 1.001 * libm::hypotf(0.5 * (front - rear), half_width),
+        })
     }
 
     /// How far each of these beams goes, metres: the distance to the nearest obstacle, or infinity if
@@ -186,12 +204,12 @@ impl Field {
         ahead
     }
 
-    /// Which of the points may be so close to an obstacle, as bits: where nobody has been yet, or
+    /// Which of the bodies at these poses may touch an obstacle, as bits: where nobody has been yet, or
     /// outside of all cells, any may.
     #[inline(always)]
-    pub(super) fn may_be_within<V: Vector>(&self, point: (V, V), distance: f32) -> u32 {
-        let cells = self.grid.locate(point);
-        let is_close = self.clearances(cells).le(V::from(distance + self.margin));
+    pub(super) fn may_touch<V: Vector>(&self, pose: &Pose<V>) -> u32 {
+        let cells = self.grid.locate(pose.to_world(V::from(self.body_middle), V::from(0.0)));
+        let is_close = self.clearances(cells).le(V::from(self.body_radius + self.margin));
         V::bits(is_close | V::from(self.grid.cells() as f32).le(cells))
     }
 
@@ -416,7 +434,8 @@ mod tests {
         let scenario = scenario::load(&source, None, &[]).unwrap();
         let world = World::new(&scenario).unwrap();
         let (walls, discs) = (world.segments().to_vec(), world.discs().to_vec());
-        Field::new(&Obstacles::new(walls, discs), 10.0).is_some()
+        let body = Body { rear: -0.35, front: 0.05, half_width: 0.1 };
+        Field::new(&Obstacles::new(walls, discs), 10.0, &body).is_some()
     }
 
     #[test]
