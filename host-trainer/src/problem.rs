@@ -71,6 +71,18 @@ impl Problem {
         problem
     }
 
+    /// The same problem for a car whose body is so many metres larger on every side. It shares the
+    /// world.
+    #[must_use]
+    pub fn padded(&self, by: f32) -> Self {
+        let mut problem = self.clone();
+        problem.scenario.vehicle = problem.scenario.vehicle.padded(by);
+        problem.model = CarModel::new(&problem.scenario);
+        problem.lookout = Arc::new(problem.model.lookout(&problem.world));
+        problem.space = Arc::default();
+        problem
+    }
+
     /// The network that is searched for.
     pub fn topology(&self) -> Topology {
         self.topology

@@ -171,6 +171,18 @@ pub struct VehicleSpec {
 impl VehicleSpec {
     /// Longest actuator delay, control periods.
     pub const MAX_DELAY: u8 = 8;
+
+    /// The same car with a body that is so many metres larger on every side (a *footprint padding*,
+    /// as costmaps of ROS call it).
+    #[must_use]
+    pub fn padded(self, by: f32) -> Self {
+        Self {
+            length: self.length + 2.0 * by,
+            width: self.width + 2.0 * by,
+            front_overhang: self.front_overhang + by,
+            ..self
+        }
+    }
 }
 
 /// Distance per control period, metres.
@@ -373,8 +385,8 @@ impl TrainingSpec {
     }
 }
 
-fn is_zero(share: &f32) -> bool {
-    *share == 0.0
+fn is_zero(value: &f32) -> bool {
+    *value == 0.0
 }
 
 /// Random worlds that a run makes for itself from its seed, as [`generate`] does. Their sizes and
@@ -430,6 +442,10 @@ pub struct TrainingSpec {
     /// The same share of the first generation's drives; between the two it changes evenly.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub stressed_share_start: f32,
+    /// Every other drive of training, and of those that choose the champion, is made with a body
+    /// that is so many metres larger on every side; pairs are drawn for the car as it is.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub footprint_padding: f32,
     /// Whether the run ends with the first generation in which somebody reaches the targets of
     /// all pairs.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]

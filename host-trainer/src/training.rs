@@ -32,7 +32,7 @@ use crate::signals::StopFlag;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fmt;
-use test_drives::TestDrives;
+use test_drives::{Cars, TestDrives};
 
 /// The best individual so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -274,7 +274,7 @@ impl<'a> Training<'a> {
     pub fn drives_of(&self, best: &Best, stop: &StopFlag) -> Result<Option<Vec<Outcome>>, Failure> {
         let (pairs, seed) = (self.pairs_of(best)?, self.seed);
         let random = |pair| training_drive(seed, best.generation, pair);
-        Ok(self.test_drives.of(&best.genome, 0.0, &pairs, &random, stop))
+        Ok(self.test_drives.of(&best.genome, Cars::AsDescribed, &pairs, &random, stop))
     }
 
     /// Shows that the first generation finds its pairs.
@@ -307,8 +307,9 @@ impl<'a> Training<'a> {
         let genomes = self.search.ask().genes();
         let random = |pair| training_drive(self.seed, generation, pair);
         let spec = &self.problem.scenario.training;
-        let share = spec.stressed_share_at(progress(generation, spec.generations));
-        let Some(drives) = self.test_drives.of(genomes, share, &pairs, &random, stop) else {
+        let stressed = spec.stressed_share_at(progress(generation, spec.generations));
+        let cars = Cars::OfTraining { stressed };
+        let Some(drives) = self.test_drives.of(genomes, cars, &pairs, &random, stop) else {
             return Ok(None);
         };
         let scenario = &self.problem.scenario;
@@ -349,8 +350,9 @@ impl<'a> Training<'a> {
         let genome = self.search.ask().genome(index);
         let seed = self.seed;
         let random = |pair| validation_drive(seed, pair);
-        let share = self.problem.scenario.training.stressed_share.into();
-        let drives = self.test_drives.of(genome, share, &self.validation, &random, stop)?;
+        let stressed = self.problem.scenario.training.stressed_share.into();
+        let cars = Cars::OfTraining { stressed };
+        let drives = self.test_drives.of(genome, cars, &self.validation, &random, stop)?;
         Some(fitness::total(&self.problem.scenario, &self.validation, &drives))
     }
 

@@ -18,7 +18,7 @@ pub(super) fn complaints(scenario: &Scenario) -> Vec<Complaint> {
     if let Err(error) = scenario.training.ga.check() {
         found.push(search(&error));
     }
-    stress(scenario, &mut found);
+    other_cars(scenario, &mut found);
     novelty(scenario, &mut found);
     worlds(scenario, &mut found);
     found
@@ -254,18 +254,21 @@ fn pair_in_room(scenario: &Scenario, index: usize, pair: &Pair, found: &mut Vec<
     }
 }
 
-/// A run ends with its targets reached only if it is the same car that drives, first and last.
-fn stress(scenario: &Scenario, found: &mut Vec<Complaint>) {
-    let TrainingSpec { stressed_share, stressed_share_start, until_reached, .. } =
+/// A run ends with its targets reached only if it is the car as described that drives, first and
+/// last.
+fn other_cars(scenario: &Scenario, found: &mut Vec<Complaint>) {
+    let TrainingSpec { stressed_share, stressed_share_start, footprint_padding, .. } =
         scenario.training;
-    let shares = [
-        (stressed_share, "training.stressed_share"),
-        (stressed_share_start, "training.stressed_share_start"),
+    let under_stress = "of them under stress, expected none";
+    let ways = [
+        (stressed_share, "training.stressed_share", under_stress),
+        (stressed_share_start, "training.stressed_share_start", under_stress),
+        (footprint_padding, "training.footprint_padding_m", "m of padding, expected none"),
     ];
-    for (share, key) in shares {
-        if share > 0.0 && until_reached {
-            let title = "`training.until_reached` needs drives that are alike in each generation";
-            let detail = format!("found {share} of them under stress, expected none");
+    for (value, key, what) in ways {
+        if value > 0.0 && scenario.training.until_reached {
+            let title = "`training.until_reached` needs drives with the car as it is described";
+            let detail = format!("found {value} {what}");
             found.push(Complaint::new(key, title, detail).or_at("training.until_reached"));
         }
     }

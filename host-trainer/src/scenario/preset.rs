@@ -130,6 +130,7 @@ pub(super) fn paper() -> Scenario {
             validation_pairs: 0,
             stressed_share: 0.0,
             stressed_share_start: 0.0,
+            footprint_padding: 0.0,
             until_reached: false,
             worlds: None,
             ga: GaSpec::PAPER,

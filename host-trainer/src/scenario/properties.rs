@@ -151,17 +151,23 @@ fn any_training() -> impl Strategy<Value = TrainingSpec> {
     let novelty = (1_u32..1000, 0_u32..=2)
         .prop_map(|(neighbours, archive_growth)| NoveltySpec { neighbours, archive_growth });
     let novelty = proptest::option::of(novelty);
-    let sizes =
-        (2_u32..1000, 1_u32..1000, 0.1_f32..10.0, 0_u32..1000, [0.0_f32..1.0, 0.0_f32..1.0]);
+    let sizes = (
+        2_u32..1000,
+        1_u32..1000,
+        0.1_f32..10.0,
+        0_u32..1000,
+        [0.0_f32..1.0, 0.0_f32..1.0, 0.0_f32..1.0],
+    );
     (sizes, ga, any::<bool>(), novelty).prop_map(|(sizes, ga, until_reached, novelty)| {
-        let (population, generations, weight_bound, validation_pairs, stressed) = sizes;
+        let (population, generations, weight_bound, validation_pairs, others) = sizes;
         TrainingSpec {
             population,
             generations,
             weight_bound,
             validation_pairs,
-            stressed_share: stressed[0],
-            stressed_share_start: stressed[1],
+            stressed_share: others[0],
+            stressed_share_start: others[1],
+            footprint_padding: others[2],
             until_reached,
             worlds: None,
             ga,
@@ -210,6 +216,7 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
             }
             if training.until_reached {
                 (training.stressed_share, training.stressed_share_start) = (0.0, 0.0);
+                training.footprint_padding = 0.0;
             }
             if let PairSource::Drawn { count, .. } = pairs.source
                 && count.min(pairs.count_end.unwrap_or(count)) >= 40

@@ -158,6 +158,7 @@ const GEOMETRY: &[&str] = &[
     "[pairs]\nresample = true\n[training]\nuntil_reached = true",
     "[pairs]\ncount = 5\n[training]\nuntil_reached = true\nstressed_share = 0.5",
     "[pairs]\ncount = 5\n[training]\nuntil_reached = true\nstressed_share_start = 0.5",
+    "[pairs]\ncount = 5\n[training]\nuntil_reached = true\nfootprint_padding_m = 0.05",
     "[training]\npopulation = 5\n[training.novelty]\narchive_growth = 6",
     "[training.novelty]\nneighbours = 0",
     "[training.novelty]\nneighbors = 15",

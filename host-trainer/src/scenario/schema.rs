@@ -301,6 +301,12 @@ impl Record for TrainingSpec {
             v.value(key, &mut given, shares, &about);
             *share = given.unwrap_or(0.0);
         }
+        let mut padding = (self.footprint_padding != 0.0).then_some(self.footprint_padding);
+        let about =
+            "how much larger every other car of training is, on every side; no larger if left out";
+        let metres = shapes::Maybe(Number::metres(0.0, 1.0));
+        v.value("footprint_padding_m", &mut padding, metres, about);
+        self.footprint_padding = padding.unwrap_or(0.0);
         let mut until_reached = self.until_reached.then_some(true);
         let about = "end when somebody reaches all targets; off if left out";
         v.value("until_reached", &mut until_reached, shapes::Maybe(Flag), about);

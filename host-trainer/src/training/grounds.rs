@@ -9,27 +9,66 @@ use crate::scenario::{Scenario, WorldsSpec};
 use crate::seed::{Purpose, RunSeed};
 use crate::stress;
 
-/// One world: for the scenario's car, and for the same under stress if some drives are.
+/// One world, for the scenario's car and for the worse ones that some drives are made with.
 #[derive(Debug)]
 pub(super) struct Ground {
-    pub(super) as_described: Problem,
-    pub(super) stressed: Option<Problem>,
+    as_described: Car,
+    /// With a larger body, if some are.
+    padded: Option<Car>,
+}
+
+/// A car, and the same under stress if some drives are.
+#[derive(Debug)]
+struct Car {
+    calm: Problem,
+    stressed: Option<Problem>,
+}
+
+impl Car {
+    fn new(calm: Problem) -> Self {
+        let scenario = &calm.scenario;
+        let stressed = scenario.training.has_stress().then(|| {
+            let car = Disturbances::of(scenario).without_chance();
+            calm.disturbed(stress::in_full(car, scenario.episode.period))
+        });
+        Self { calm, stressed }
+    }
 }
 
 impl Ground {
     fn new(problem: Problem) -> Self {
-        let scenario = &problem.scenario;
-        let stressed = scenario.training.has_stress().then(|| {
-            let car = Disturbances::of(scenario).without_chance();
-            problem.disturbed(stress::in_full(car, scenario.episode.period))
-        });
-        Self { as_described: problem, stressed }
+        let padding = problem.scenario.training.footprint_padding;
+        let padded = (padding > 0.0).then(|| Car::new(problem.padded(padding)));
+        Self { as_described: Car::new(problem), padded }
+    }
+
+    /// The world with the scenario's car.
+    pub(super) fn as_described(&self) -> &Problem {
+        &self.as_described.calm
+    }
+
+    /// With which car the `n`th pair of a generation is driven if this share of the drives is under
+    /// stress: in turns as described and padded, each under stress as often.
+    pub(super) fn for_pair(&self, n: usize, share: f64) -> &Problem {
+        let (car, turn) = match &self.padded {
+            None => (&self.as_described, n),
+            Some(padded) => ([&self.as_described, padded][n % 2], n / 2),
+        };
+        let stressed = car.stressed.as_ref().filter(|_| is_stressed(turn, share));
+        stressed.unwrap_or(&car.calm)
     }
 
     /// Draws pairs in it.
     pub(super) fn sampler(&self) -> PairSampler<'_> {
-        self.as_described.sampler()
+        self.as_described().sampler()
     }
+}
+
+/// Whether a drive is under stress in its turn: of the first `n` of them `share * n` are, rounded
+/// down.
+fn is_stressed(turn: usize, share: f64) -> bool {
+    let before = |turns: usize| (turns as f64 * share) as u64;
+    before(turn + 1) > before(turn)
 }
 
 /// The scenario's own world, or those that its run makes for itself.
@@ -66,4 +105,20 @@ fn made(recipe: &Recipe, scenario: &Scenario) -> Result<Problem, Failure> {
     let [width, height] = scenario.world.bounds.size();
     scenario.pairs.min_distance = scenario.pairs.min_distance.min(0.5 * width.min(height));
     Problem::new(scenario)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn drives_under_stress_are_spread_evenly() {
+        let turns = |share| -> String {
+            (0..8).map(|turn| if is_stressed(turn, share) { '!' } else { '.' }).collect()
+        };
+        assert_eq!(turns(0.0), "........");
+        assert_eq!(turns(0.25), "...!...!");
+        assert_eq!(turns(0.5), ".!.!.!.!");
+        assert_eq!(turns(1.0), "!!!!!!!!");
+    }
 }

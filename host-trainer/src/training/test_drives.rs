@@ -12,11 +12,20 @@ use crate::vector::Instructions;
 use crate::wide::{Drives, Fleet};
 use rayon::prelude::*;
 
-/// Drives in each world with the scenario's car, and with the same under stress for a share of
-/// the pairs. Pair `i` lies in world `i` modulo their number.
+/// Drives in each world with the scenario's car, and with worse ones for some of the pairs. Pair `i`
+/// lies in world `i` modulo their number.
 #[derive(Debug)]
 pub(super) struct TestDrives {
     grounds: Vec<Ground>,
+}
+
+/// What cars the drives are made with.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Cars {
+    /// The scenario's.
+    AsDescribed,
+    /// Those of training, this share of them under stress if the scenario has such drives at all.
+    OfTraining { stressed: f64 },
 }
 
 /// The drives of one car in one world: who, and the places of its pairs.
@@ -32,7 +41,7 @@ impl TestDrives {
 
     /// The scenarios of the worlds that the run made for itself.
     pub(super) fn made(&self) -> impl Iterator<Item = &Scenario> {
-        let scenarios = self.grounds.iter().map(|ground| &ground.as_described.scenario);
+        let scenarios = self.grounds.iter().map(|ground| &ground.as_described().scenario);
         scenarios.filter(|scenario| scenario.training.worlds.is_some())
     }
 
@@ -42,18 +51,17 @@ impl TestDrives {
     }
 
     /// Every individual's drives, all of the first individual, then of the second; none once
-    /// `stop` is raised. Drive `i` gets the random numbers of `random(i)`. This `share` of them is
-    /// under stress, if the scenario has such drives at all.
+    /// `stop` is raised. Drive `i` gets the random numbers of `random(i)`.
     pub(super) fn of(
         &self,
         genomes: &[f32],
-        share: f64,
+        cars: Cars,
         pairs: &[Pair],
         random: &(dyn Fn(u32) -> Stream + Sync),
         stop: &StopFlag,
     ) -> Option<Vec<Outcome>> {
-        let parts = self.parts(pairs.len(), share);
-        let length = self.grounds[0].as_described.topology().weights();
+        let parts = self.parts(pairs.len(), cars);
+        let length = self.grounds[0].as_described().topology().weights();
         let individuals = genomes.len() / length;
         let mut all = vec![Outcome::default(); individuals * pairs.len()];
         let instructions = Instructions::in_use();
@@ -95,22 +103,25 @@ impl TestDrives {
     }
 
     /// Who drives which pairs.
-    fn parts(&self, pairs: usize, share: f64) -> Vec<Part<'_>> {
+    fn parts(&self, pairs: usize, cars: Cars) -> Vec<Part<'_>> {
         let worlds = self.grounds.len();
-        let mut parts = Vec::new();
+        let mut parts: Vec<Part<'_>> = Vec::new();
         // Counted through all worlds, so that they have their share together.
         let mut count = 0;
-        for (world, Ground { as_described, stressed }) in self.grounds.iter().enumerate() {
-            let (mut worse, mut same) = (Vec::new(), Vec::new());
+        for (world, ground) in self.grounds.iter().enumerate() {
+            let first = parts.len();
             for place in (world..pairs).step_by(worlds) {
-                let is_worse = stressed.is_some() && is_stressed(count, share);
-                if is_worse { &mut worse } else { &mut same }.push(place);
+                let problem = match cars {
+                    Cars::AsDescribed => ground.as_described(),
+                    Cars::OfTraining { stressed } => ground.for_pair(count, stressed),
+                };
                 count += 1;
+                match parts[first..].iter_mut().find(|part| std::ptr::eq(part.problem, problem)) {
+                    Some(part) => part.places.push(place),
+                    None => parts.push(Part { problem, places: vec![place] }),
+                }
             }
-            parts.push(Part { problem: as_described, places: same });
-            parts.extend(stressed.iter().map(|problem| Part { problem, places: worse.clone() }));
         }
-        parts.retain(|part| !part.places.is_empty());
         parts
     }
 }
@@ -132,13 +143,6 @@ impl Part<'_> {
     }
 }
 
-/// Whether the pair at this place is driven under stress: of the first `n` places
-/// `share * n` are, rounded down.
-fn is_stressed(place: usize, share: f64) -> bool {
-    let before = |places: usize| (places as f64 * share) as u64;
-    before(place + 1) > before(place)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -148,24 +152,13 @@ mod tests {
     use crate::stress;
 
     #[test]
-    fn stressed_pairs_are_spread_evenly() {
-        let places = |share| -> String {
-            (0..8).map(|place| if is_stressed(place, share) { '!' } else { '.' }).collect()
-        };
-        assert_eq!(places(0.0), "........");
-        assert_eq!(places(0.25), "...!...!");
-        assert_eq!(places(0.5), ".!.!.!.!");
-        assert_eq!(places(1.0), "!!!!!!!!");
-    }
-
-    #[test]
     fn all_worlds_together_have_the_share_of_stressed_drives() {
         for worlds in ["", "[training.worlds]\nboxes = 7"] {
             let text = format!("[pairs]\ncount = 9\n[training]\nstressed_share = 0.5\n{worlds}");
             let source = scenario::Source::new("a.toml", text, std::path::Path::new(""));
             let problem = Problem::new(scenario::load(&source, None, &[]).unwrap()).unwrap();
             let drives = TestDrives::new(&problem, RunSeed(1)).unwrap();
-            let parts = drives.parts(9, 0.5);
+            let parts = drives.parts(9, Cars::OfTraining { stressed: 0.5 });
             let is_worse = |part: &&Part<'_>| part.problem.scenario.vehicle.delay_periods > 0;
             let stressed: usize = parts.iter().filter(is_worse).map(|part| part.places.len()).sum();
             let all: usize = parts.iter().map(|part| part.places.len()).sum();
@@ -185,23 +178,72 @@ mod tests {
         let car = stress::in_full(Disturbances::of(&calm.scenario), calm.scenario.episode.period);
         let worse = calm.disturbed(car);
         let pairs = calm.sampler().unseen(RunSeed(3), 7).unwrap();
-        let weights = 2 * calm.topology().weights();
-        let genomes: Vec<f32> = (0..weights).map(|i| libm::sinf(i as f32)).collect();
-        let random = |pair| training_drive(RunSeed(1), 4, pair);
-        let stop = StopFlag::default();
-        let of = |problem: &Problem| {
-            let share = problem.scenario.training.stressed_share.into();
-            TestDrives::new(problem, RunSeed(1))
-                .unwrap()
-                .of(&genomes, share, &pairs, &random, &stop)
-                .unwrap()
-        };
-        let (half, always, calm, worse) = (of(&half), of(&always), of(&calm), of(&worse));
+        let (half, always) = (driven(&half, &pairs), driven(&always, &pairs));
+        let (calm, worse) = (driven(&calm, &pairs), driven(&worse, &pairs));
         assert_ne!(calm, worse);
         assert_eq!(always, worse);
         for (index, outcome) in half.iter().enumerate() {
             let expected = if index % 7 % 2 == 1 { worse[index] } else { calm[index] };
             assert_eq!(*outcome, expected, "drive {index}");
         }
+    }
+
+    #[test]
+    fn every_other_drive_is_that_of_a_car_with_a_larger_body_and_a_champions_are_not() {
+        let mut scenario = Preset::Paper.scenario();
+        scenario.pairs.source = PairSource::Drawn { count: 7, resample: false };
+        let lean = Problem::new(scenario.clone()).unwrap();
+        scenario.training.footprint_padding = 0.3;
+        let some = Problem::new(scenario.clone()).unwrap();
+        scenario.training.footprint_padding = 0.0;
+        let vehicle = &mut scenario.vehicle;
+        (vehicle.length, vehicle.width, vehicle.front_overhang) = (1.0, 0.8, 0.35);
+        let stout = Problem::new(scenario).unwrap();
+        let pairs = lean.sampler().unseen(RunSeed(3), 7).unwrap();
+        let as_described = drives(&some, Cars::AsDescribed, &pairs);
+        let [some, lean, stout] = [&some, &lean, &stout].map(|problem| driven(problem, &pairs));
+        assert_eq!(as_described, lean);
+        assert_ne!(lean, stout);
+        for (index, outcome) in some.iter().enumerate() {
+            let expected = if index % 7 % 2 == 1 { stout[index] } else { lean[index] };
+            assert_eq!(*outcome, expected, "drive {index}");
+        }
+    }
+
+    #[test]
+    fn as_many_padded_cars_are_under_stress_as_others() {
+        let mut scenario = Preset::Paper.scenario();
+        scenario.training.footprint_padding = 0.1;
+        scenario.training.stressed_share = 0.5;
+        let problem = Problem::new(scenario).unwrap();
+        let drives = TestDrives::new(&problem, RunSeed(1)).unwrap();
+        let cars = drives.parts(8, Cars::OfTraining { stressed: 0.5 });
+        let of = |part: &Part<'_>| {
+            let vehicle = &part.problem.scenario.vehicle;
+            (vehicle.width > 0.3, vehicle.delay_periods > 0, part.places.clone())
+        };
+        assert_eq!(
+            cars.iter().map(of).collect::<Vec<_>>(),
+            [
+                (false, false, vec![0, 4]),
+                (true, false, vec![1, 5]),
+                (false, true, vec![2, 6]),
+                (true, true, vec![3, 7]),
+            ]
+        );
+    }
+
+    /// The drives of two individuals, as in the scenario's training.
+    fn driven(problem: &Problem, pairs: &[Pair]) -> Vec<Outcome> {
+        let stressed = problem.scenario.training.stressed_share.into();
+        drives(problem, Cars::OfTraining { stressed }, pairs)
+    }
+
+    fn drives(problem: &Problem, cars: Cars, pairs: &[Pair]) -> Vec<Outcome> {
+        let weights = 2 * problem.topology().weights();
+        let genomes: Vec<f32> = (0..weights).map(|i| libm::sinf(i as f32)).collect();
+        let random = |pair| training_drive(RunSeed(1), 4, pair);
+        let drives = TestDrives::new(problem, RunSeed(1)).unwrap();
+        drives.of(&genomes, cars, pairs, &random, &StopFlag::default()).unwrap()
     }
 }
