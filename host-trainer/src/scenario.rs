@@ -409,7 +409,8 @@ impl WorldsSpec {
     /// No world yet, of usual sides.
     pub const NONE: Self = Self { boxes: 0, pillars: 0, rooms: 0, barn_like: 0, side: [8.0, 16.0] };
 
-    /// Most worlds in all: a large one may take 90 MB once a car has been everywhere.
+    /// Most worlds in all: a large one may take 90 MB once a car has been everywhere, and as much again
+    /// for cars with a larger body.
     pub const MOST: u32 = 64;
 
     /// How many of each kind, in the order of [`generate::Kind::ALL`].

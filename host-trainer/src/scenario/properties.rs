@@ -160,14 +160,15 @@ fn any_training() -> impl Strategy<Value = TrainingSpec> {
     );
     (sizes, ga, any::<bool>(), novelty).prop_map(|(sizes, ga, until_reached, novelty)| {
         let (population, generations, weight_bound, validation_pairs, others) = sizes;
+        let [stressed_share, stressed_share_start, footprint_padding] = others;
         TrainingSpec {
             population,
             generations,
             weight_bound,
             validation_pairs,
-            stressed_share: others[0],
-            stressed_share_start: others[1],
-            footprint_padding: others[2],
+            stressed_share,
+            stressed_share_start,
+            footprint_padding,
             until_reached,
             worlds: None,
             ga,

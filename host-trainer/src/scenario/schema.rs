@@ -4,7 +4,7 @@
 
 use super::number::{Number, OrInfinite, Whole};
 use super::problem::Problem;
-use super::shapes::{self, Area, List, Point, Pose};
+use super::shapes::{self, Area, List, Point, Pose, UnlessDefault};
 use super::value::Found;
 use super::words::{DISTANCE_LAW, Flag, Line, MUTATION, Name, SELECTION, Step, Text, Word};
 use super::*;
@@ -290,27 +290,18 @@ impl Record for TrainingSpec {
         let pairs = Whole { low: 0, high: 100_000 };
         let validation = &mut self.validation_pairs;
         v.value("validation_pairs", validation, pairs, "choose the champion; 0: the last best");
-        let ends = [
-            ("stressed_share", &mut self.stressed_share, "last"),
-            ("stressed_share_start", &mut self.stressed_share_start, "first"),
-        ];
-        for (key, share, which) in ends {
-            let mut given = (*share != 0.0).then_some(*share);
-            let shares = shapes::Maybe(Number::plain(0.0, 1.0));
-            let about = format!("drives under stress in the {which} generation; none if left out");
-            v.value(key, &mut given, shares, &about);
-            *share = given.unwrap_or(0.0);
-        }
-        let mut padding = (self.footprint_padding != 0.0).then_some(self.footprint_padding);
-        let about =
-            "how much larger every other car of training is, on every side; no larger if left out";
-        let metres = shapes::Maybe(Number::metres(0.0, 1.0));
-        v.value("footprint_padding_m", &mut padding, metres, about);
-        self.footprint_padding = padding.unwrap_or(0.0);
-        let mut until_reached = self.until_reached.then_some(true);
+        let share = &mut self.stressed_share;
+        let about = "drives under stress in the last generation; none if left out";
+        v.value("stressed_share", share, UnlessDefault(SHARE), about);
+        let share = &mut self.stressed_share_start;
+        let about = "drives under stress in the first generation; none if left out";
+        v.value("stressed_share_start", share, UnlessDefault(SHARE), about);
+        let metres = UnlessDefault(Number::metres(0.0, 1.0));
+        let about = "how much larger every other car is, on every side; no larger if left out";
+        v.value("footprint_padding_m", &mut self.footprint_padding, metres, about);
+        let until_reached = &mut self.until_reached;
         let about = "end when somebody reaches all targets; off if left out";
-        v.value("until_reached", &mut until_reached, shapes::Maybe(Flag), about);
-        self.until_reached = until_reached.unwrap_or(false);
+        v.value("until_reached", until_reached, UnlessDefault(Flag), about);
         v.optional_section("worlds", &mut self.worlds, WorldsSpec::NONE);
         v.section("ga", &mut self.ga);
         v.optional_section("novelty", &mut self.novelty, NoveltySpec::USUAL);

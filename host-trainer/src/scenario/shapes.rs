@@ -71,6 +71,23 @@ impl<T, C: Codec<T>> Codec<Option<T>> for Maybe<C> {
     }
 }
 
+/// A setting that stands for something that is not there unless given; then it is not written.
+pub(super) struct UnlessDefault<C>(pub(super) C);
+
+impl<T: Default + PartialEq, C: Codec<T>> Codec<T> for UnlessDefault<C> {
+    fn read(&self, found: &Found<'_>, problems: &mut Vec<Problem>) -> Option<T> {
+        self.0.read(found, problems)
+    }
+
+    fn write(&self, value: &T) -> Option<String> {
+        if *value == T::default() { None } else { self.0.write(value) }
+    }
+
+    fn expected(&self) -> String {
+        self.0.expected()
+    }
+}
+
 /// A table of its own in a list.
 pub(super) struct Entry<T>(PhantomData<T>);
 

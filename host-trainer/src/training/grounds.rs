@@ -12,19 +12,19 @@ use crate::stress;
 /// One world, for the scenario's car and for the worse ones that some drives are made with.
 #[derive(Debug)]
 pub(super) struct Ground {
-    as_described: Car,
+    own: Variant,
     /// With a larger body, if some are.
-    padded: Option<Car>,
+    padded: Option<Variant>,
 }
 
 /// A car, and the same under stress if some drives are.
 #[derive(Debug)]
-struct Car {
+struct Variant {
     calm: Problem,
     stressed: Option<Problem>,
 }
 
-impl Car {
+impl Variant {
     fn new(calm: Problem) -> Self {
         let scenario = &calm.scenario;
         let stressed = scenario.training.has_stress().then(|| {
@@ -38,21 +38,21 @@ impl Car {
 impl Ground {
     fn new(problem: Problem) -> Self {
         let padding = problem.scenario.training.footprint_padding;
-        let padded = (padding > 0.0).then(|| Car::new(problem.padded(padding)));
-        Self { as_described: Car::new(problem), padded }
+        let padded = (padding > 0.0).then(|| Variant::new(problem.padded(padding)));
+        Self { own: Variant::new(problem), padded }
     }
 
     /// The world with the scenario's car.
     pub(super) fn as_described(&self) -> &Problem {
-        &self.as_described.calm
+        &self.own.calm
     }
 
-    /// With which car the `n`th pair of a generation is driven if this share of the drives is under
-    /// stress: in turns as described and padded, each under stress as often.
-    pub(super) fn for_pair(&self, n: usize, share: f64) -> &Problem {
+    /// The world with the car of a generation's `n`th drive, counted world by world, if this share of
+    /// the drives is under stress: in turns as described and padded, of either as many under stress.
+    pub(super) fn for_drive(&self, n: usize, share: f64) -> &Problem {
         let (car, turn) = match &self.padded {
-            None => (&self.as_described, n),
-            Some(padded) => ([&self.as_described, padded][n % 2], n / 2),
+            None => (&self.own, n),
+            Some(padded) => ([&self.own, padded][n % 2], n / 2),
         };
         let stressed = car.stressed.as_ref().filter(|_| is_stressed(turn, share));
         stressed.unwrap_or(&car.calm)

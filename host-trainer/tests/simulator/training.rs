@@ -73,9 +73,10 @@ const CHANGING: &str = "
     fan_in = true
 ";
 
-/// The same, short, and with ever more drives under stress.
+/// The same, short, with ever more drives under stress and some larger cars.
 fn stressed() -> String {
-    CHANGING.replace("generations = 12", "generations = 4\n    stressed_share = 1")
+    let settings = "generations = 4\n    footprint_padding_m = 0.05\n    stressed_share = 1";
+    CHANGING.replace("generations = 12", settings)
 }
 
 /// The same in random worlds instead of the scenario's own.
@@ -237,26 +238,32 @@ fn a_search_by_novelty_does_not_look_at_the_cost() {
 }
 
 /// Seeds, pairs and genomes of the first generation are the same; what a drive under stress costs is
-/// not, and neither is who chooses the champion.
+/// not.
 #[test]
 fn drives_are_under_stress_from_the_second_generation_on_or_as_soon_as_asked() {
-    let first_rows = |share: &str| {
+    let begun = |share: &str| {
         let settings = stressed().replace("stressed_share = 1", share);
         let settings = settings.replace("resample = true", "resample = false");
-        let settings = settings.replace("mine = 0.5", "");
-        let settings = settings.replace("count_end = 16", "");
+        let mut settings = settings.replace("mine = 0.5", "");
+        for line in ["count_end = 16", "footprint_padding_m = 0.05"] {
+            settings = settings.replace(line, "");
+        }
         let problem = Problem::new(from_toml(&settings)).unwrap();
         let mut training = Training::new(&problem, RunSeed(5)).unwrap();
-        [(); 2].map(|()| *training.step().unwrap())
+        let first = *training.step().unwrap();
+        let validated = training.best().unwrap().cost;
+        (first, *training.step().unwrap(), validated)
     };
-    let [calm, stressed] = ["", "stressed_share = 1"].map(first_rows);
-    assert_eq!(calm[0], stressed[0]);
-    assert_ne!(calm[1], stressed[1]);
-    let [always, fading] =
-        [1, 0].map(|end| first_rows(&format!("stressed_share_start = 1\nstressed_share = {end}")));
-    assert_ne!(always[0], calm[0]);
-    assert_eq!(always[0], fading[0]);
-    assert_ne!(always[1], fading[1]);
+    let [calm, stressed] = ["", "stressed_share = 1"].map(begun);
+    assert_eq!(calm.0, stressed.0);
+    assert_ne!(calm.1, stressed.1);
+    let always = begun("stressed_share_start = 1\nstressed_share = 1");
+    let fading = begun("stressed_share_start = 1");
+    assert_ne!(always.0, calm.0);
+    assert_eq!(always.0, fading.0);
+    assert_ne!(always.1, fading.1);
+    // The same individual drives the pairs that choose the champion, under stress as in the end.
+    assert_ne!(always.2, fading.2);
 }
 
 /// The oracle drives each pair alone, in a world made by hand as the run says it made it.
@@ -376,16 +383,26 @@ fn pairs_grow_in_number_to_the_last_generation() {
 
 #[test]
 fn the_number_of_generations_is_part_of_a_run_that_changes_on_its_way() {
-    for (settings, is_part) in [(NOISY, false), (CHANGING, true)] {
+    let cases = [
+        (NOISY, [0.0, 0.0], false),
+        (CHANGING, [0.0, 0.0], true),
+        (NOISY, [0.0, 0.5], true),
+        (NOISY, [0.5, 0.0], true),
+        (NOISY, [0.5, 0.5], false),
+    ];
+    for (settings, [start, end], is_part) in cases {
         let run = |generations| {
             let mut scenario = from_toml(settings);
             scenario.training.generations = generations;
+            scenario.training.stressed_share_start = start;
+            scenario.training.stressed_share = end;
             Problem::new(scenario).unwrap()
         };
         let (short, long) = (run(7), run(9));
         let mut first = Training::new(&short, RunSeed(5)).unwrap();
         first.step().unwrap();
         let mut other = Training::new(&long, RunSeed(5)).unwrap();
-        assert_eq!(other.restore(first.snapshot()).is_err(), is_part);
+        let is_other = other.restore(first.snapshot()).is_err();
+        assert_eq!(is_other, is_part, "stress from {start} to {end}");
     }
 }
