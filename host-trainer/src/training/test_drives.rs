@@ -168,8 +168,7 @@ mod tests {
 
     #[test]
     fn a_stressed_drive_is_that_of_a_stressed_car_and_the_others_are_as_without_stress() {
-        let mut scenario = Preset::Paper.scenario();
-        scenario.pairs.source = PairSource::Drawn { count: 7, resample: false };
+        let mut scenario = of_seven_pairs();
         let calm = Problem::new(scenario.clone()).unwrap();
         scenario.training.stressed_share = 0.5;
         let half = Problem::new(scenario.clone()).unwrap();
@@ -180,12 +179,8 @@ mod tests {
         let pairs = calm.sampler().unseen(RunSeed(3), 7).unwrap();
         let (half, always) = (driven(&half, &pairs), driven(&always, &pairs));
         let (calm, worse) = (driven(&calm, &pairs), driven(&worse, &pairs));
-        assert_ne!(calm, worse);
         assert_eq!(always, worse);
-        for (index, outcome) in half.iter().enumerate() {
-            let expected = if index % 7 % 2 == 1 { worse[index] } else { calm[index] };
-            assert_eq!(*outcome, expected, "drive {index}");
-        }
+        assert_take_turns(&half, &calm, &worse);
     }
 
     #[test]
@@ -193,11 +188,7 @@ mod tests {
         let [some, lean, stout] = padded();
         let pairs = lean.sampler().unseen(RunSeed(3), 7).unwrap();
         let [some, lean, stout] = [&some, &lean, &stout].map(|problem| driven(problem, &pairs));
-        assert_ne!(lean, stout);
-        for (index, outcome) in some.iter().enumerate() {
-            let expected = if index % 7 % 2 == 1 { stout[index] } else { lean[index] };
-            assert_eq!(*outcome, expected, "drive {index}");
-        }
+        assert_take_turns(&some, &lean, &stout);
     }
 
     #[test]
@@ -209,8 +200,7 @@ mod tests {
 
     /// A training with some larger cars, one with none, and one with large cars only.
     fn padded() -> [Problem; 3] {
-        let mut scenario = Preset::Paper.scenario();
-        scenario.pairs.source = PairSource::Drawn { count: 7, resample: false };
+        let mut scenario = of_seven_pairs();
         let lean = scenario.clone();
         scenario.training.footprint_padding = 0.3;
         let some = scenario.clone();
@@ -241,6 +231,21 @@ mod tests {
                 (true, true, vec![3, 7]),
             ]
         );
+    }
+
+    fn of_seven_pairs() -> Scenario {
+        let mut scenario = Preset::Paper.scenario();
+        scenario.pairs.source = PairSource::Drawn { count: 7, resample: false };
+        scenario
+    }
+
+    /// Of seven pairs, the first car drives one and the second the next.
+    fn assert_take_turns(found: &[Outcome], first: &[Outcome], second: &[Outcome]) {
+        assert_ne!(first, second);
+        for (index, outcome) in found.iter().enumerate() {
+            let expected = if index % 7 % 2 == 1 { second[index] } else { first[index] };
+            assert_eq!(*outcome, expected, "drive {index}");
+        }
     }
 
     /// The drives of two individuals, as in the scenario's training.
