@@ -5,6 +5,7 @@
 //! after everything that happens only once has happened; the first words printed are the steps
 //! that each of them is about.
 
+use controller_core::geometry::Body;
 use controller_core::motion::Pose;
 use host_trainer::bench::{parts, speed, workload};
 use host_trainer::car::body_of;
@@ -30,17 +31,18 @@ fn count() {
     let genomes = workload::population(INDIVIDUALS);
     let sensors = &problem.scenario.sensors;
     let fan = Fan::new(&sensors.beams, sensors.range);
-    let lookout = problem.world.lookout(fan.range(), body_of(&problem.scenario.vehicle));
+    let body = body_of(&problem.scenario.vehicle);
+    let lookout = problem.world.lookout(fan.range(), body);
     let steps = problem.scenario.episode.step_limit as usize;
     let poses = parts::poses(&problem, INDIVIDUALS, steps);
     for _ in 0..3 {
         black_box(drives(&problem, &genomes));
         parts::look(&lookout, &fan, &poses, Instructions::in_use());
-        parts::touch(&lookout, &poses, Instructions::in_use());
+        parts::touch(&lookout, &body, &poses, Instructions::in_use());
     }
     let driven = counted_drives(&problem, &genomes);
     counted_beams(&lookout, &fan, &poses);
-    counted_contacts(&lookout, &poses);
+    counted_contacts(&lookout, &body, &poses);
     counted_networks(&genomes, steps);
     assert_eq!(driven as usize, poses.len());
     println!("{driven} steps");
@@ -62,8 +64,8 @@ fn counted_beams(lookout: &Lookout, fan: &Fan, poses: &[Pose<f32>]) {
 }
 
 #[inline(never)]
-fn counted_contacts(lookout: &Lookout, poses: &[Pose<f32>]) {
-    parts::touch(black_box(lookout), poses, Instructions::in_use());
+fn counted_contacts(lookout: &Lookout, body: &Body<f32>, poses: &[Pose<f32>]) {
+    parts::touch(black_box(lookout), body, poses, Instructions::in_use());
     black_box(());
 }
 

@@ -155,7 +155,7 @@ impl Actuate for SimulatedCar<'_> {
         let moved = self.pose.driven(steer, step, self.exemplar.wheelbase);
         // A blocked car turns on the spot, and its body may come to lie across a wall; from
         // there, a step could end on the far side of it.
-        self.collided = self.lookout.touches(&[moved], &[1]) != [0]
+        self.collided = self.lookout.touches(self.model.body(), &[moved], &[1]) != [0]
             || (self.collided && self.world.separates([x, y], [moved.x, moved.y]));
         if self.collided {
             self.collisions += 1;

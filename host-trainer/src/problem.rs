@@ -1,7 +1,7 @@
 //! What is to be solved: a scenario with its world and car built, ready to judge genomes.
 
 use crate::brain::{self, Brain, NotBuiltIn};
-use crate::car::{CarModel, scaling_of};
+use crate::car::{CarModel, body_of, scaling_of};
 use crate::disturbances::Disturbances;
 use crate::episode::{self, Outcome, Stage, Trace};
 use crate::failure::Failure;
@@ -44,8 +44,9 @@ impl Problem {
     pub fn new(scenario: Scenario) -> Result<Self, Failure> {
         let world = World::new(&scenario)?;
         let model = CarModel::new(&scenario);
+        let largest = scenario.vehicle.padded(scenario.training.footprint_padding);
         Ok(Self {
-            lookout: Arc::new(model.lookout(&world)),
+            lookout: Arc::new(world.lookout(model.range(), body_of(&largest))),
             space: Arc::default(),
             world: Arc::new(world),
             model,
@@ -71,14 +72,14 @@ impl Problem {
         problem
     }
 
-    /// The same problem for a car whose body is so many metres larger on every side. It shares the
-    /// world.
+    /// The same problem for the car with a [larger body](crate::scenario::TrainingSpec) that training
+    /// lets every other drive have. It shares the world, and what is known of it.
     #[must_use]
-    pub fn padded(&self, by: f32) -> Self {
+    pub fn padded(&self) -> Self {
         let mut problem = self.clone();
-        problem.scenario.vehicle = problem.scenario.vehicle.padded(by);
+        let Scenario { vehicle, training, .. } = &mut problem.scenario;
+        *vehicle = vehicle.padded(training.footprint_padding);
         problem.model = CarModel::new(&problem.scenario);
-        problem.lookout = Arc::new(problem.model.lookout(&problem.world));
         problem.space = Arc::default();
         problem
     }

@@ -175,12 +175,12 @@ impl VehicleSpec {
     /// The same car with a body that is so many metres larger on every side (a *footprint padding*,
     /// as costmaps of ROS call it).
     #[must_use]
-    pub fn padded(self, by: f32) -> Self {
+    pub fn padded(&self, by: f32) -> Self {
         Self {
             length: self.length + 2.0 * by,
             width: self.width + 2.0 * by,
             front_overhang: self.front_overhang + by,
-            ..self
+            ..self.clone()
         }
     }
 }
@@ -409,8 +409,7 @@ impl WorldsSpec {
     /// No world yet, of usual sides.
     pub const NONE: Self = Self { boxes: 0, pillars: 0, rooms: 0, barn_like: 0, side: [8.0, 16.0] };
 
-    /// Most worlds in all: a large one may take 90 MB once a car has been everywhere, and as much again
-    /// for cars with a larger body.
+    /// Most worlds in all: a large one may take 90 MB once a car has been everywhere.
     pub const MOST: u32 = 64;
 
     /// How many of each kind, in the order of [`generate::Kind::ALL`].

@@ -78,7 +78,7 @@ fn compare(
     let set = Instructions::in_use();
     let begun = Instant::now();
     let lookout = world.lookout(fan.range(), body);
-    let known = visit(&lookout, fan, poses, set);
+    let known = visit(&lookout, fan, &body, poses, set);
     let poses = &poses[..known];
     let ready = begun.elapsed().as_secs_f64() * 1e3;
     let begun = Instant::now();
@@ -96,7 +96,7 @@ fn compare(
                 black_box(reference.distance(&ray, fan.range()));
             }
         }));
-        times[2].push(nanoseconds(poses.len(), || parts::touch(&lookout, poses, set)));
+        times[2].push(nanoseconds(poses.len(), || parts::touch(&lookout, &body, poses, set)));
         times[3].push(nanoseconds(few.len(), || {
             few.iter().for_each(|pose| _ = black_box(reference.touches(black_box(pose))));
         }));
@@ -115,12 +115,18 @@ fn compare(
 const FEW: usize = 960;
 
 /// Visits every place, since places are looked at closely where cars turn up; gives up after [`MOST_READY`]. Returns how many poses were visited at all.
-fn visit(lookout: &Lookout, fan: &Fan, poses: &[Pose<f32>], set: Instructions) -> usize {
+fn visit(
+    lookout: &Lookout,
+    fan: &Fan,
+    body: &Body<f32>,
+    poses: &[Pose<f32>],
+    set: Instructions,
+) -> usize {
     let begun = Instant::now();
     let mut known = 0;
     for few in poses.chunks(FEW) {
         parts::look(lookout, fan, few, set);
-        parts::touch(lookout, few, set);
+        parts::touch(lookout, body, few, set);
         known += few.len();
         if begun.elapsed() > MOST_READY {
             break;

@@ -10,6 +10,7 @@ use crate::vector::{Instructions, Kernel, Slots, Vector, Weight};
 use crate::wide::SLOTS;
 use crate::world::{Fan, Lookout};
 use controller_core::activation::Rational;
+use controller_core::geometry::Body;
 use controller_core::motion::Pose;
 use controller_core::network::{Elman, Network, State};
 use controller_core::observation::{BEAMS, INPUTS};
@@ -68,19 +69,20 @@ pub fn distances(lookout: &Lookout, fan: &Fan, pose: &Pose<f32>) -> [f32; BEAMS]
 }
 
 /// The contacts of cars at these poses, likewise.
-pub fn touch(lookout: &Lookout, poses: &[Pose<f32>], set: Instructions) {
-    struct Touch<'a>(&'a Lookout, &'a [Pose<f32>]);
+pub fn touch(lookout: &Lookout, body: &Body<f32>, poses: &[Pose<f32>], set: Instructions) {
+    struct Touch<'a>(&'a Lookout, &'a Body<f32>, &'a [Pose<f32>]);
     impl Kernel for Touch<'_> {
         type Output = ();
         #[inline(always)]
         fn run<V: Vector>(self) {
-            for poses in self.1.chunks_exact(SLOTS * V::WIDTH) {
+            let Self(lookout, body, poses) = self;
+            for poses in poses.chunks_exact(SLOTS * V::WIDTH) {
                 let poses = side_by_side::<V>(black_box(poses));
-                black_box(self.0.touches(&poses, &[u32::MAX; SLOTS]));
+                black_box(lookout.touches(body, &poses, &[u32::MAX; SLOTS]));
             }
         }
     }
-    set.run(Touch(lookout, poses));
+    set.run(Touch(lookout, body, poses));
 }
 
 /// Poses in the lanes of vectors.

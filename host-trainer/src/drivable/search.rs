@@ -114,7 +114,7 @@ impl<'a> Search<'a> {
             pose = pose.driven(steer.radians(), self.step, wheelbase);
             periods += 1;
             let is_clear = self.floor.is_roomy(model.body(), &pose)
-                || self.problem.lookout().touches(&[pose], &[1]) == [0];
+                || self.problem.lookout().touches(model.body(), &[pose], &[1]) == [0];
             if !is_clear {
                 return false;
             }

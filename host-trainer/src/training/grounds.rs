@@ -38,7 +38,7 @@ impl Variant {
 impl Ground {
     fn new(problem: Problem) -> Self {
         let padding = problem.scenario.training.footprint_padding;
-        let padded = (padding > 0.0).then(|| Variant::new(problem.padded(padding)));
+        let padded = (padding > 0.0).then(|| Variant::new(problem.padded()));
         Self { own: Variant::new(problem), padded }
     }
 

@@ -206,7 +206,7 @@ impl<'a, V: Vector> Block<'a, V> {
             };
             (poses[slot], steps[slot]) = self.cars[slot].driven(command, model);
         }
-        let hits = lookout.touches(&poses, &live);
+        let hits = lookout.touches(model.body(), &poses, &live);
         for slot in 0..SLOTS {
             self.tally.steps += u64::from(live[slot].count_ones());
             let moved = (&poses[slot], steps[slot]);

@@ -58,12 +58,11 @@ use std::sync::Arc;
 pub use fan::Fan;
 pub use shelf::Survey;
 
-/// Distances and contacts of cars with one kind of body in one world.
+/// Distances and contacts of cars in one world, whose bodies do not reach beyond a largest one.
 #[derive(Debug)]
 pub struct Lookout {
     obstacles: Arc<Obstacles>,
     range: f32,
-    body: Body<f32>,
     slack: f32,
     grid: Grid,
     shelf: Shelf,
@@ -72,14 +71,14 @@ pub struct Lookout {
 }
 
 impl Lookout {
-    /// Prepares for beams that reach `range` metres, and for this body. Costs next to nothing:
-    /// cells are looked at where a car turns up.
-    pub fn new(obstacles: Arc<Obstacles>, range: f32, body: Body<f32>) -> Self {
+    /// Prepares for beams that reach `range` metres, and for bodies within the `largest`. Costs next
+    /// to nothing: cells are looked at where a car turns up.
+    pub fn new(obstacles: Arc<Obstacles>, range: f32, largest: Body<f32>) -> Self {
         let [low, high] = obstacles.bounds();
         let grid = Grid::new(low, high, Shelf::are_many(&obstacles));
-        let field = Field::new(&obstacles, range, &body);
-        let shelf = Shelf::new(&obstacles, &grid, range, body, field.is_none());
-        Self { slack: shelf.slack(), obstacles, range, body, grid, shelf, field }
+        let field = Field::new(&obstacles, range, &largest);
+        let shelf = Shelf::new(&obstacles, &grid, range, largest, field.is_none());
+        Self { slack: shelf.slack(), obstacles, range, grid, shelf, field }
     }
 
     /// How far the beams of cars at these poses go, metres: the distance to the nearest obstacle, or
@@ -151,10 +150,11 @@ impl Lookout {
     }
 
     /// Which of the bodies at these poses touch an obstacle's edge, or lie inside a disc, as
-    /// bits; only those whose bit in `live` is set.
+    /// bits; only those whose bit in `live` is set. Exact for every body within the largest.
     #[inline(always)]
     pub fn touches<V: Vector, const N: usize>(
         &self,
+        body: &Body<f32>,
         poses: &[Pose<V>; N],
         live: &[u32; N],
     ) -> [u32; N] {
@@ -172,19 +172,19 @@ impl Lookout {
             self.shelf.ask_near(&mut asked, car, &shelves, sectors[car]);
         }
         self.shelf.answer_near::<V, N>(&mut asked);
-        let Body { rear, front, half_width } = self.body;
-        let body =
+        let Body { rear, front, half_width } = *body;
+        let wide =
             Body { rear: V::from(rear), front: V::from(front), half_width: V::from(half_width) };
         let mut touched = [0; N];
         for round in 0..Asked::<N>::ROUNDS {
             for car in asked.with_name(round) {
                 let [a, b, c, d] = self.shelf.faces(&asked, car, round);
                 let wall = Segment { a: (a, b), b: (c, d) };
-                let mut touches = body.touches_segment(&poses[car], &wall);
+                let mut touches = wide.touches_segment(&poses[car], &wall);
                 if self.shelf.has_discs() {
                     let is_disc = beams::are_discs(&[a, b, c, d]);
                     let disc = Disc { centre: (a, b), radius: c };
-                    let in_disc = body.touches_disc(&poses[car], &disc);
+                    let in_disc = wide.touches_disc(&poses[car], &disc);
                     touches = (touches & !is_disc) | (in_disc & is_disc);
                 }
                 touched[car] |= V::bits(touches);
@@ -194,7 +194,7 @@ impl Lookout {
             let open = asked.unknown::<V>(car) & live[car];
             touched[car] &= live[car] & !open;
             if open != 0 {
-                touched[car] |= self.settle_touch(&poses[car], sectors[car], open);
+                touched[car] |= self.settle_touch(body, &poses[car], sectors[car], open);
             }
         }
         touched
@@ -238,7 +238,13 @@ impl Lookout {
 
     #[cold]
     #[inline(never)]
-    fn settle_touch<V: Vector>(&self, pose: &Pose<V>, sectors: V, open: u32) -> u32 {
+    fn settle_touch<V: Vector>(
+        &self,
+        body: &Body<f32>,
+        pose: &Pose<V>,
+        sectors: V,
+        open: u32,
+    ) -> u32 {
         let cells = self.grid.locate((pose.x, pose.y));
         let mut touched = 0;
         for lane in (0..V::WIDTH).filter(|lane| open >> lane & 1 == 1) {
@@ -250,24 +256,25 @@ impl Lookout {
                 cos: number(pose.cos),
                 sin: number(pose.sin),
             };
-            let touches = self.settled_touch(&pose, number(cells) as u32, number(sectors) as u32);
+            let (cell, sector) = (number(cells) as u32, number(sectors) as u32);
+            let touches = self.settled_touch(body, &pose, cell, sector);
             touched |= u32::from(touches) << lane;
         }
         touched
     }
 
-    fn settled_touch(&self, pose: &Pose<f32>, cell: u32, sector: u32) -> bool {
+    fn settled_touch(&self, body: &Body<f32>, pose: &Pose<f32>, cell: u32, sector: u32) -> bool {
         let mut touches = false;
         let question = Question::Near(sector);
         let known = self.shelf.each(&self.grid, &self.obstacles, cell, question, |row| {
             let [a, b, c, d] = *row;
             touches |= if beams::are_discs(row) {
-                self.body.touches_disc(pose, &Disc { centre: (a, b), radius: c })
+                body.touches_disc(pose, &Disc { centre: (a, b), radius: c })
             } else {
-                self.body.touches_segment(pose, &Segment { a: (a, b), b: (c, d) })
+                body.touches_segment(pose, &Segment { a: (a, b), b: (c, d) })
             };
         });
-        if known.is_some() { touches } else { self.obstacles.touch(&self.body, pose) }
+        if known.is_some() { touches } else { self.obstacles.touch(body, pose) }
     }
 
     /// Whether beams walk through a field of distances, as in a crowd, instead of asking lists.

@@ -88,8 +88,8 @@ impl Pair {
         seen
     }
 
-    fn feel(&self, pose: &Pose<f32>) -> bool {
-        self.lookout.touches(&[*pose], &[1]) != [0]
+    fn feel(&self, body: &Body<f32>, pose: &Pose<f32>) -> bool {
+        self.lookout.touches(body, &[*pose], &[1]) != [0]
     }
 
     fn compare(&mut self, pose: &Pose<f32>) {
@@ -105,9 +105,13 @@ impl Pair {
             assert!(same, "beam {beam} at {pose:?} sees {seen}, not {expected}");
             self.seen += usize::from(seen.is_finite());
         }
-        let touched = self.feel(pose);
-        assert_eq!(touched, self.truth.touches(&self.body, pose), "touch at {pose:?}");
-        self.touched += usize::from(touched);
+        let Body { rear, front, half_width } = self.body;
+        let half = Body { rear: 0.5 * rear, front: 0.5 * front, half_width: 0.5 * half_width };
+        for body in [self.body, half] {
+            let touched = self.feel(&body, pose);
+            assert_eq!(touched, self.truth.touches(&body, pose), "{body:?} at {pose:?}");
+            self.touched += usize::from(touched);
+        }
     }
 }
 
@@ -442,7 +446,7 @@ fn a_pose_outside_of_every_cell_or_not_a_number_is_answered_like_any_other() {
     for lost in [f32::NAN, f32::INFINITY] {
         let pose = Pose::new(lost, 0.0, 0.0);
         assert_eq!(pair.look(&pose), [f32::INFINITY; BEAMS]);
-        assert!(!pair.feel(&pose));
+        assert!(!pair.feel(&pair.body, &pose));
     }
 }
 
