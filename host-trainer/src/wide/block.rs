@@ -96,6 +96,11 @@ impl<'a, V: Vector> Block<'a, V> {
     #[inline(never)]
     fn refill(&mut self) {
         self.has_room = false;
+        if !self.queue.has_drives() {
+            self.waiting = 0;
+            self.close_ranks();
+            return;
+        }
         for lane in 0..V::WIDTH {
             for slot in 0..SLOTS {
                 if self.cars[slot].live >> lane & 1 == 0
@@ -152,6 +157,41 @@ impl<'a, V: Vector> Block<'a, V> {
         self.refill();
     }
 
+    /// Once nothing is left to begin: has cars of the last slots take the places of those in the first
+    /// that are done, so that whole slots are empty, which cost a period next to nothing.
+    fn close_ranks(&mut self) {
+        let enough = (SLOTS * V::WIDTH - self.idle()).div_ceil(V::WIDTH);
+        if self.cars[enough..].iter().all(|cars| cars.live == 0) {
+            return;
+        }
+        if self.networks.may_separate() {
+            self.networks.separate();
+        } else if self.networks.sharing(0).len() > 1 {
+            return;
+        }
+        let mut free = 0..enough * V::WIDTH;
+        for slot in enough..SLOTS {
+            for lane in ones(self.cars[slot].live) {
+                let is_free =
+                    |place: &usize| self.cars[place / V::WIDTH].live >> (place % V::WIDTH) & 1 == 0;
+                let place = free.find(is_free).expect("there is room for every car");
+                self.shift((slot, lane), (place / V::WIDTH, place % V::WIDTH));
+            }
+        }
+    }
+
+    /// Moves a car, with its drive and its network, from one slot and lane to another.
+    fn shift(&mut self, (slot, lane): (usize, usize), to @ (to_slot, to_lane): (usize, usize)) {
+        self.individuals[to_lane][to_slot] = self.individuals[lane][slot];
+        self.drives[to_lane][to_slot] = std::mem::take(&mut self.drives[lane][slot]);
+        let [from_cars, to_cars] = self
+            .cars
+            .get_disjoint_mut([slot, to_slot])
+            .expect("cars go from the last slots to the first");
+        from_cars.shift(lane, to_cars, to_lane);
+        self.networks.shift((slot, lane), to);
+    }
+
     /// Puts a car at the start of its drive.
     fn start(&mut self, lane: usize, slot: usize) {
         let problem = self.fleet.problem;
@@ -176,9 +216,12 @@ impl<'a, V: Vector> Block<'a, V> {
         let mut rays = [fan.rays(&poses[0]); SLOTS];
         let mut live = [0; SLOTS];
         for slot in 0..SLOTS {
+            live[slot] = self.cars[slot].live;
+            if live[slot] == 0 {
+                continue;
+            }
             poses[slot] = self.cars[slot].pose;
             rays[slot] = fan.rays(&poses[slot]);
-            live[slot] = self.cars[slot].live;
             if model.is_disturbed() {
                 // Long before it is used: numbers written one by one take a while until they can
                 // be read as a vector.
@@ -187,6 +230,9 @@ impl<'a, V: Vector> Block<'a, V> {
         }
         let walls = lookout.distances::<V, SLOTS, { SLOTS * BEAMS }>(fan, &poses, &rays, &live);
         for slot in 0..SLOTS {
+            if live[slot] == 0 {
+                continue;
+            }
             let sight = self.cars[slot].sense(model, &rays[slot], &walls[slot]);
             let inputs = scaling.encoding.inputs(&sight, scaling.range);
             for (all, input) in self.networks.inputs.iter_mut().zip(inputs) {
@@ -199,6 +245,9 @@ impl<'a, V: Vector> Block<'a, V> {
         let has_speed = problem.topology().outputs == 2;
         let mut steps = [V::from(0.0); SLOTS];
         for slot in 0..SLOTS {
+            if live[slot] == 0 {
+                continue;
+            }
             let command = if has_speed {
                 scaling.commands(&[steer.0[slot], speed.0[slot]])
             } else {
@@ -208,6 +257,9 @@ impl<'a, V: Vector> Block<'a, V> {
         }
         let hits = lookout.touches(model.body(), &poses, &live);
         for slot in 0..SLOTS {
+            if live[slot] == 0 {
+                continue;
+            }
             self.tally.steps += u64::from(live[slot].count_ones());
             let moved = (&poses[slot], steps[slot]);
             let ends = self.cars[slot].act(moved, hits[slot], model, world);
@@ -228,6 +280,13 @@ impl<'a, V: Vector> Block<'a, V> {
     #[cfg(test)]
     pub(super) fn are_separate(&self) -> bool {
         self.networks.sharing(0).len() == 1
+    }
+
+    /// How many cars have a drive, and in how many slots they are.
+    #[cfg(test)]
+    pub(super) fn cars_and_slots(&self) -> [usize; 2] {
+        let slots = self.cars.iter().filter(|cars| cars.live != 0).count();
+        [SLOTS * V::WIDTH - self.idle(), slots]
     }
 
     /// Every car with a drive: the drive, its steps so far, pose and hidden outputs.

@@ -102,6 +102,43 @@ impl<'a, V: Vector> Cars<'a, V> {
         self.live |= 1 << lane;
     }
 
+    /// Has the car in a lane go on in a lane of others of the same model.
+    pub(super) fn shift(&mut self, lane: usize, others: &mut Self, to: usize) {
+        let Self { pose, target, .. } = self;
+        let Self { pose: to_pose, target: to_target, .. } = others;
+        let places = [
+            (&mut to_pose.x, pose.x),
+            (&mut to_pose.y, pose.y),
+            (&mut to_pose.heading, pose.heading),
+            (&mut to_pose.cos, pose.cos),
+            (&mut to_pose.sin, pose.sin),
+            (&mut to_target.centre.0, target.centre.0),
+            (&mut to_target.centre.1, target.centre.1),
+            (&mut others.wheelbase, self.wheelbase),
+            (&mut others.step_scale, self.step_scale),
+            (&mut others.steer_offset, self.steer_offset),
+            (&mut others.steer, self.steer),
+            (&mut others.path_length, self.path_length),
+            (&mut others.collisions, self.collisions),
+            (&mut others.blocked, self.blocked),
+        ];
+        for (place, value) in places {
+            place.lanes_mut()[to] = value.lanes()[lane];
+        }
+        // Others may have stood still meanwhile: what is due next is in another place there.
+        let periods = self.waiting.len();
+        for later in 0..periods {
+            let commands = &self.waiting[(self.due + later) % periods];
+            let places = &mut others.waiting[(others.due + later) % periods];
+            for (place, command) in places.iter_mut().zip(commands) {
+                place.lanes_mut()[to] = command.lanes()[lane];
+            }
+        }
+        self.source.shift(lane, &mut others.source, to);
+        self.live &= !(1 << lane);
+        others.live |= 1 << to;
+    }
+
     /// How the drive in this lane has gone so far.
     pub(super) fn outcome(&self, lane: usize, steps: u32, reached: bool) -> Outcome {
         let at = |(x, y): (V, V)| [x.lanes()[lane], y.lanes()[lane]];

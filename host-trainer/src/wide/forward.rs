@@ -83,6 +83,23 @@ impl<V: Vector> Networks<V> {
         }
     }
 
+    /// Moves a car's network from one slot and lane to another. Cars must be
+    /// [separate](Self::separate).
+    pub(super) fn shift(
+        &mut self,
+        (slot, lane): (usize, usize),
+        (to_slot, to_lane): (usize, usize),
+    ) {
+        if let Weights::OfCars(weights) = &mut self.weights {
+            for Weight(weight) in weights {
+                weight[to_slot].lanes_mut()[to_lane] = weight[slot].lanes()[lane];
+            }
+        }
+        self.memory.visit(&mut |output| {
+            output.0[to_slot].lanes_mut()[to_lane] = output.0[slot].lanes()[lane];
+        });
+    }
+
     /// Forgets what one car's network remembers.
     pub(super) fn forget(&mut self, slot: usize, lane: usize) {
         self.memory.visit(&mut |output| output.0[slot].lanes_mut()[lane] = 0.0);

@@ -132,6 +132,15 @@ impl Source<'_> {
         }
     }
 
+    /// The car in this lane goes on in a lane of another source of the same tapes.
+    pub(super) fn shift(&mut self, lane: usize, others: &mut Self, to: usize) {
+        match (self, others) {
+            (Self::Streams(from), Self::Streams(streams)) => streams[to] = from[lane].take(),
+            (Self::Tapes(_, from), Self::Tapes(_, readers)) => readers[to] = from[lane].clone(),
+            _ => {}
+        }
+    }
+
     /// Gives each of the lanes in `live` its misreading of the next control period.
     #[inline(always)]
     pub(super) fn next(

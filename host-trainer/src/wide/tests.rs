@@ -295,26 +295,46 @@ fn every_pose_and_hidden_output_stays_that_of_the_drive_alone_once_cars_are_sepa
 /// Drives a fleet: whether its cars were separated, and which share of their control periods they drove.
 struct Waiting<'a>(&'a Fleet<'a>);
 
+/// How cars waited for each other.
+struct Waited {
+    /// Whether they were separated while there was anything left to begin.
+    separate: bool,
+    /// The share of all cars' control periods that they drove.
+    busy: f64,
+    /// Control periods in which nothing was left to begin, and in how many of them cars took more
+    /// slots than there have to be.
+    ending: usize,
+    spread: usize,
+}
+
 impl Kernel for Waiting<'_> {
-    type Output = (bool, f64);
+    type Output = Waited;
 
     #[inline(always)]
-    fn run<V: Vector>(self) -> (bool, f64) {
+    fn run<V: Vector>(self) -> Waited {
         let stop = StopFlag::default();
         let queue = Queue::new(self.0.individuals(), self.0.pairs.len(), &stop);
         let tapes = Tapes::of(self.0);
         let mut block = Block::<V>::new(self.0, &queue, &tapes);
+        let mut waited = Waited { separate: false, busy: 0.0, ending: 0, spread: 0 };
         let mut periods = 0;
         while block.fill() {
+            let [cars, slots] = block.cars_and_slots();
+            if queue.has_drives() {
+                waited.separate |= block.are_separate();
+            } else {
+                waited.ending += 1;
+                waited.spread += usize::from(slots > cars.div_ceil(V::WIDTH));
+            }
             block.step();
             periods += SLOTS * V::WIDTH;
         }
-        (block.are_separate(), block.done().1.steps as f64 / periods as f64)
+        Waited { busy: block.done().1.steps as f64 / periods as f64, ..waited }
     }
 }
 
 /// What [`Waiting`] says, with the widest vectors, of drives that a collision ends.
-fn waiting(individuals: usize, count: u32, hidden: u8, again: bool) -> (bool, f64) {
+fn waiting(individuals: usize, count: u32, hidden: u8, again: bool) -> Waited {
     let mut scenario = scenario::load(&scenario::find("complex").unwrap(), None, &[]).unwrap();
     scenario.episode.on_collision = OnCollision::Stop;
     scenario.episode.step_limit = 150;
@@ -329,22 +349,34 @@ fn waiting(individuals: usize, count: u32, hidden: u8, again: bool) -> (bool, f6
 
 #[test]
 fn cars_are_separated_where_they_would_wait_for_the_longest_drive_of_few_pairs() {
-    let (separate, busy) = waiting(300, 5, 12, false);
+    let Waited { separate, busy, .. } = waiting(300, 5, 12, false);
     assert!(separate);
     assert!(busy > 0.8, "{busy}");
 }
 
 #[test]
 fn cars_stay_together_where_hardly_any_would_wait() {
-    assert!(!waiting(20, 200, 12, false).0, "many pairs");
-    assert!(!waiting(100, 5, 12, true).0, "every drive as long as the others");
-    assert!(!waiting(1, 200, 12, false).0, "one individual");
-    assert!(!waiting(Instructions::of_this_cpu().width(), 5, 12, false).0, "nobody is left");
+    assert!(!waiting(20, 200, 12, false).separate, "many pairs");
+    assert!(!waiting(100, 5, 12, true).separate, "every drive as long as the others");
+    assert!(!waiting(1, 200, 12, false).separate, "one individual");
+    let width = Instructions::of_this_cpu().width();
+    assert!(!waiting(width, 5, 12, false).separate, "nobody is left");
+}
+
+#[test]
+fn at_the_end_of_a_fleet_cars_take_no_more_slots_than_they_have_to() {
+    for (individuals, count) in [(300, 5), (20, 200), (1, 200)] {
+        let Waited { ending, spread, .. } = waiting(individuals, count, 12, false);
+        assert!(ending > 20 && spread == 0, "{individuals}, {count}: {spread} of {ending}");
+    }
+    let Waited { spread, .. } = waiting(20, 200, 32, false);
+    let fits = Instructions::of_this_cpu().width() < MOST_LANES;
+    assert_eq!(spread == 0, fits, "weights for each car do not fit the second cache");
 }
 
 #[test]
 fn cars_stay_together_where_weights_for_each_would_not_fit_the_second_cache() {
-    let separate = waiting(300, 5, 32, false).0;
+    let separate = waiting(300, 5, 32, false).separate;
     assert_eq!(separate, Instructions::of_this_cpu().width() < MOST_LANES);
 }
 

@@ -105,6 +105,9 @@ impl Lookout {
         let mut bins = [[V::from(0.0); BEAMS]; N];
         let mut beams = [[Beams::new(rays[0][0]); BEAMS]; N];
         for car in 0..N {
+            if live[car] == 0 {
+                continue;
+            }
             let mut shelves = self.shelf.shelves(self.grid.locate(rays[car][0].origin));
             for beam in 0..BEAMS {
                 if beam > 0 && !fan.has_one_origin() {
@@ -120,7 +123,7 @@ impl Lookout {
                 beams[car][beam] = Beams::new(rays[car][beam]);
             }
         }
-        self.shelf.answer_seen::<V, Q>(&mut asked);
+        self.shelf.answer_seen::<V, Q>(&mut asked, live);
         let all = beams.as_flattened_mut();
         for round in 0..Asked::<Q>::ROUNDS {
             for index in asked.with_name(round) {
@@ -134,6 +137,9 @@ impl Lookout {
         }
         let mut distances = [[V::from(f32::INFINITY); BEAMS]; N];
         for car in 0..N {
+            if live[car] == 0 {
+                continue;
+            }
             for beam in 0..BEAMS {
                 let (question, met) = (car * BEAMS + beam, &beams[car][beam]);
                 let distance = &mut distances[car][beam];
@@ -167,11 +173,14 @@ impl Lookout {
         let mut asked = Asked::<N>::new();
         let mut sectors = [V::from(0.0); N];
         for car in 0..N {
+            if live[car] == 0 {
+                continue;
+            }
             let shelves = self.shelf.shelves(self.grid.locate((poses[car].x, poses[car].y)));
             sectors[car] = part_of_turn::<V, SECTORS>(poses[car].heading);
             self.shelf.ask_near(&mut asked, car, &shelves, sectors[car]);
         }
-        self.shelf.answer_near::<V, N>(&mut asked);
+        self.shelf.answer_near::<V, N>(&mut asked, &live);
         let Body { rear, front, half_width } = *body;
         let wide =
             Body { rear: V::from(rear), front: V::from(front), half_width: V::from(half_width) };

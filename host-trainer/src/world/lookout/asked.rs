@@ -58,10 +58,19 @@ impl<const N: usize> Asked<N> {
         }
     }
 
-    /// Writes down the words of all questions.
+    /// Writes down the words of all questions. As many of them are about each set of lanes in `live`, one
+    /// set after the other; where none is live, nothing is asked.
     #[inline(always)]
-    pub(super) fn answer<V: Vector>(&mut self, numbers: &[AtomicU16], words: AllWords<'_>) {
+    pub(super) fn answer<V: Vector>(
+        &mut self,
+        numbers: &[AtomicU16],
+        words: AllWords<'_>,
+        live: &[u32],
+    ) {
         for question in 0..N {
+            if live[question * live.len() / N] == 0 {
+                continue;
+            }
             let (places, slots) = (&self.places[question], &mut self.words[question]);
             let mut any = 0;
             for lane in 0..V::WIDTH {

@@ -230,16 +230,24 @@ impl Shelf {
         asked.ask(question, places, self.large.as_ref().map(|_| legends));
     }
 
-    /// Answers what beams can meet.
+    /// Answers what beams can meet, for cars with any lane in `live`.
     #[inline(always)]
-    pub(super) fn answer_seen<V: Vector, const N: usize>(&self, asked: &mut Asked<N>) {
-        asked.answer::<V>(&self.seen, self.words.all());
+    pub(super) fn answer_seen<V: Vector, const N: usize>(
+        &self,
+        asked: &mut Asked<N>,
+        live: &[u32],
+    ) {
+        asked.answer::<V>(&self.seen, self.words.all(), live);
     }
 
-    /// Answers what bodies can touch.
+    /// Answers what bodies can touch, likewise.
     #[inline(always)]
-    pub(super) fn answer_near<V: Vector, const N: usize>(&self, asked: &mut Asked<N>) {
-        asked.answer::<V>(&self.near, self.words.all());
+    pub(super) fn answer_near<V: Vector, const N: usize>(
+        &self,
+        asked: &mut Asked<N>,
+        live: &[u32],
+    ) {
+        asked.answer::<V>(&self.near, self.words.all(), live);
     }
 
     /// The shelves of these cells.
