@@ -106,7 +106,7 @@ impl Problem {
         &self.model
     }
 
-    /// The world as this car sees and touches it.
+    /// The world as this car and its larger likes in training see and touch it.
     pub(crate) fn lookout(&self) -> &Lookout {
         &self.lookout
     }
@@ -153,7 +153,7 @@ impl Problem {
     }
 
     /// Whether the same genome always costs the same: nothing about a drive is random, none is
-    /// under stress, and every generation drives the same pairs.
+    /// under stress, and every generation drives the same pairs in the same worlds.
     pub fn is_stationary(&self) -> bool {
         use crate::scenario::{PairSource, RandomiseSpec};
         let Scenario { sensors, episode, pairs, training, .. } = &self.scenario;
@@ -161,7 +161,9 @@ impl Problem {
         let fixed_start = episode.start_offset == 0.0 && episode.start_turn == 0.0;
         let fixed_car = episode.randomise == RandomiseSpec::default();
         let exact = sensors.noise == 0.0 && sensors.dropout == 0.0;
-        same_pairs && fixed_start && fixed_car && exact && !training.has_stress()
+        let same_worlds = training.worlds.is_none_or(|worlds| worlds.renew_every == 0);
+        let same_drives = same_pairs && same_worlds && fixed_start && fixed_car;
+        same_drives && exact && !training.has_stress()
     }
 }
 

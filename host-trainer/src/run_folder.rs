@@ -8,7 +8,7 @@
 //! | `checkpoint-a.bin`, `checkpoint-b.bin` | state to resume from: [`crate::checkpoint`] | in turn |
 //! | `champion.blob` | the best controller | at the end |
 //! | `plots/*.svg`, `report.html` | pictures and the report | at the end |
-//! | `worlds/*.toml`, `worlds/*.svg` | the random worlds it trained in, where it made any | second |
+//! | `worlds/*.toml`, `worlds/*.svg` | random worlds it trained in, where it made any | second, and at the end |
 //! | `lock` | nothing; whoever holds its lock owns the folder | |
 
 pub mod manifest;

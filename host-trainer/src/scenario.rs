@@ -385,6 +385,10 @@ impl TrainingSpec {
     }
 }
 
+fn is_zero_count(count: &u32) -> bool {
+    *count == 0
+}
+
 fn is_zero(value: &f32) -> bool {
     *value == 0.0
 }
@@ -403,13 +407,29 @@ pub struct WorldsSpec {
     pub barn_like: u32,
     /// Shortest and longest side, metres.
     pub side: [f32; 2],
+    /// Generations after which a new world takes the place of an old one, each place in its turn;
+    /// 0 keeps all.
+    #[serde(default, skip_serializing_if = "is_zero_count")]
+    pub renew_every: u32,
+    /// The champion is whoever of the last generation does best in so many times as many other worlds,
+    /// in which nobody was trained; 0 has it chosen in the worlds of training.
+    #[serde(default, skip_serializing_if = "is_zero_count")]
+    pub held_out: u32,
 }
 
 impl WorldsSpec {
     /// No world yet, of usual sides.
-    pub const NONE: Self = Self { boxes: 0, pillars: 0, rooms: 0, barn_like: 0, side: [8.0, 16.0] };
+    pub const NONE: Self = Self {
+        boxes: 0,
+        pillars: 0,
+        rooms: 0,
+        barn_like: 0,
+        side: [8.0, 16.0],
+        renew_every: 0,
+        held_out: 0,
+    };
 
-    /// Most worlds in all: a large one may take 90 MB once a car has been everywhere.
+    /// Most worlds in all, at a time: a large one may take 90 MB once a car has been everywhere.
     pub const MOST: u32 = 64;
 
     /// How many of each kind, in the order of [`generate::Kind::ALL`].
@@ -417,9 +437,14 @@ impl WorldsSpec {
         [self.boxes, self.pillars, self.rooms, self.barn_like]
     }
 
-    /// How many worlds in all.
+    /// How many worlds there are to train in at a time.
     pub fn total(&self) -> u32 {
         self.counts().iter().sum()
+    }
+
+    /// In how many worlds the pairs lie that choose the champion.
+    pub fn choosing(&self) -> u32 {
+        self.total() * self.held_out.max(1)
     }
 }
 

@@ -58,7 +58,8 @@ pub enum Purpose {
     ValidationDrive = 10,
     /// Which individuals of one generation join the archive of a novelty search.
     NoveltyArchive = 11,
-    /// The worlds that a run makes for itself to train in; index: world.
+    /// The worlds that a run makes for itself; in place of the generation: 0 first, 1 later, 2 held out;
+    /// index: world.
     TrainingWorld = 12,
 }
 

@@ -14,6 +14,8 @@ mod hard;
 mod row;
 mod scales;
 mod test_drives;
+#[cfg(test)]
+mod tests;
 
 use crate::episode::Outcome;
 use crate::evolve::ga::{Ga, Outlook, progress};
@@ -106,7 +108,8 @@ pub struct Training<'a> {
     best: Option<Best>,
     /// Pairs that the current generation keeps from the one before.
     kept: Vec<Pair>,
-    /// Pairs that choose the champion; none if the last generation's best is it.
+    /// Pairs that choose the champion among the best of each generation; none if the last
+    /// generation has it.
     validation: Vec<Pair>,
 }
 
@@ -128,16 +131,16 @@ impl<'a> Training<'a> {
         let outlook = Outlook { generations: spec.generations, scales };
         let search = Ga::with_outlook(space, spec.ga, outlook, seed)
             .map_err(|error| Failure::bad_input(format!("training: {error}")))?;
-        let test_drives = TestDrives::new(problem, seed)?;
+        let test_drives = TestDrives::new(problem, seed, 0)?;
         let validation = match problem.scenario.pairs.source {
-            PairSource::Drawn { .. } => {
+            PairSource::Drawn { .. } if !holds_out(spec) => {
                 pairs::validation_in(&test_drives.samplers(), seed, spec.validation_pairs)
             }
-            PairSource::Listed(_) => Ok(Vec::new()),
+            _ => Ok(Vec::new()),
         };
         let validation = validation.map_err(|none| no_pair(problem, none))?;
         let search: Box<dyn Optimizer> = Box::new(search);
-        let run = run_id(&problem.scenario, test_drives.made(), seed);
+        let run = run_id(&problem.scenario, test_drives.scenarios(), seed);
         let (history, kept) = (Vec::new(), Vec::new());
         let coordinates = 2 * count_of_pairs(&problem.scenario) as usize;
         let novelty = spec.novelty.map(|novelty| Novelty::new(novelty, coordinates, seed));
@@ -238,31 +241,50 @@ impl<'a> Training<'a> {
 
     /// The answer so far: the best of the last generation (the paper's "best individual of the
     /// P"), or of all generations where the same genome always costs the same. With validation
-    /// pairs, of every generation's best the one that costs least there.
+    /// pairs, of every generation's best the one that costs least there; with worlds held out, after the
+    /// last generation, whoever of it costs least in those.
     pub fn best(&self) -> Option<&Best> {
         self.best.as_ref()
     }
 
     /// The pairs that the generation drove in which this best individual was found; pair `i` lies
-    /// in world `i` modulo the number of [worlds](Self::worlds), if it made any.
+    /// in world `i` modulo the number of [worlds](Self::worlds_in) of that generation, if the run makes
+    /// any.
     ///
     /// # Errors
     ///
-    /// A world in which no pair is found.
+    /// A world in which no pair is found, or random worlds without a way through.
     pub fn pairs_of(&self, best: &Best) -> Result<Vec<Pair>, Failure> {
-        self.pairs(best.generation, &best.kept)
+        let then = self.earlier(best.generation)?;
+        self.pairs(then.as_ref().unwrap_or(&self.test_drives), best.generation, &best.kept)
     }
 
-    fn pairs(&self, generation: u32, kept: &[Pair]) -> Result<Vec<Pair>, Failure> {
-        let (samplers, scenario) = (self.test_drives.samplers(), &self.problem.scenario);
+    fn pairs(
+        &self,
+        test_drives: &TestDrives,
+        generation: u32,
+        kept: &[Pair],
+    ) -> Result<Vec<Pair>, Failure> {
+        let (samplers, scenario) = (test_drives.samplers(), &self.problem.scenario);
         let pairs = pairs::training_in(&samplers, kept, scenario, self.seed, generation);
         pairs.map_err(|none| no_pair(self.problem, none))
     }
 
-    /// The worlds that the run made for itself to drive in; none if it drives in the problem's own.
-    pub fn worlds(&self) -> impl Iterator<Item = Recipe> {
-        let worlds = self.problem.scenario.training.worlds;
-        worlds.into_iter().flat_map(|worlds| grounds::recipes(worlds, self.seed))
+    /// The worlds that the run makes for itself to drive in in this generation; none if it drives in
+    /// the problem's own.
+    ///
+    /// # Errors
+    ///
+    /// Random worlds without a way through.
+    pub fn worlds_in(&self, generation: u32) -> Result<Vec<Recipe>, Failure> {
+        let then = self.earlier(generation)?;
+        Ok(then.as_ref().unwrap_or(&self.test_drives).recipes().collect())
+    }
+
+    /// The worlds of that generation, if they are no longer there.
+    fn earlier(&self, generation: u32) -> Result<Option<TestDrives>, Failure> {
+        let are_there = self.test_drives.are_of(self.problem, generation);
+        (!are_there).then(|| TestDrives::new(self.problem, self.seed, generation)).transpose()
     }
 
     /// How this best individual drives the [pairs](Self::pairs_of) of its generation, each in its
@@ -270,11 +292,14 @@ impl<'a> Training<'a> {
     ///
     /// # Errors
     ///
-    /// A world in which no pair is found.
+    /// A world in which no pair is found, or random worlds without a way through.
     pub fn drives_of(&self, best: &Best, stop: &StopFlag) -> Result<Option<Vec<Outcome>>, Failure> {
-        let (pairs, seed) = (self.pairs_of(best)?, self.seed);
-        let random = |pair| training_drive(seed, best.generation, pair);
-        Ok(self.test_drives.of(&best.genome, Cars::AsDescribed, &pairs, &random, stop))
+        let (generation, seed) = (best.generation, self.seed);
+        let then = self.earlier(generation)?;
+        let test_drives = then.as_ref().unwrap_or(&self.test_drives);
+        let pairs = self.pairs(test_drives, generation, &best.kept)?;
+        let random = |pair| training_drive(seed, generation, pair);
+        Ok(test_drives.of(&best.genome, Cars::AsDescribed, &pairs, &random, stop))
     }
 
     /// Shows that the first generation finds its pairs.
@@ -283,27 +308,28 @@ impl<'a> Training<'a> {
     ///
     /// A world in which no pair is found.
     pub fn can_begin(&self) -> Result<(), Failure> {
-        self.pairs(0, &[]).map(drop)
+        self.pairs(&self.test_drives, 0, &[]).map(drop)
     }
 
     /// Judges the current generation on the current rayon pool and breeds the next.
     ///
     /// # Errors
     ///
-    /// A world in which no pair is found.
+    /// A world in which no pair is found, or random worlds without a way through.
     pub fn step(&mut self) -> Result<&MetricsRow, Failure> {
         let never = StopFlag::default();
         Ok(self.step_unless(&never)?.expect("nobody raises this flag"))
     }
 
-    /// The same; none, and nothing has changed, if `stop` was raised meanwhile.
+    /// The same; none, and nothing has been judged, if `stop` was raised meanwhile.
     ///
     /// # Errors
     ///
-    /// A world in which no pair is found.
+    /// A world in which no pair is found, or random worlds without a way through.
     pub fn step_unless(&mut self, stop: &StopFlag) -> Result<Option<&MetricsRow>, Failure> {
         let generation = self.generation();
-        let pairs = self.pairs(generation, &self.kept)?;
+        self.test_drives.renew(self.problem, self.seed, generation)?;
+        let pairs = self.pairs(&self.test_drives, generation, &self.kept)?;
         let genomes = self.search.ask().genes();
         let random = |pair| training_drive(self.seed, generation, pair);
         let spec = &self.problem.scenario.training;
@@ -318,9 +344,15 @@ impl<'a> Training<'a> {
             .map(|drives| fitness::total(scenario, &pairs, drives))
             .collect();
         let best = self.best_of(&costs, &drives, pairs.len());
-        let Some(cost) = self.validated(best, costs[best], stop) else { return Ok(None) };
         let row = row::row(generation, &costs, &drives, pairs.len(), best);
-        self.keep(generation, cost, best, self.solves(&row));
+        let is_last = generation + 1 >= spec.generations || self.solves(&row);
+        let chosen = if is_last && holds_out(spec) {
+            self.chosen_elsewhere(stop)?
+        } else {
+            self.validated(best, costs[best], stop).map(|cost| (best, cost))
+        };
+        let Some((chosen, cost)) = chosen else { return Ok(None) };
+        self.keep(generation, cost, chosen, self.solves(&row));
         self.kept = hard::hardest(&pairs, &drives, scenario.pairs.mine);
         self.ends = ends(&drives, pairs.len());
         match &mut self.novelty {
@@ -348,22 +380,52 @@ impl<'a> Training<'a> {
             return Some(cost);
         }
         let genome = self.search.ask().genome(index);
-        let seed = self.seed;
+        let costs = self.costs_of(genome, &self.test_drives, &self.validation, stop)?;
+        Some(costs[0])
+    }
+
+    /// Who costs least in the worlds that are held out, and how much; none if `stop` was raised
+    /// meanwhile.
+    fn chosen_elsewhere(&self, stop: &StopFlag) -> Result<Option<(usize, Cost)>, Failure> {
+        let Some(worlds) = TestDrives::held_out(self.problem, self.seed)? else { return Ok(None) };
+        let count = self.problem.scenario.training.validation_pairs;
+        let pairs = pairs::validation_in(&worlds.samplers(), self.seed, count)
+            .map_err(|none| no_pair(self.problem, none))?;
+        let costs = self.costs_of(self.search.ask().genes(), &worlds, &pairs, stop);
+        Ok(costs.and_then(|costs| (0..).zip(costs).min_by_key(|(_, cost)| *cost)))
+    }
+
+    /// What each of these genomes costs on pairs that choose the champion; none if `stop` was raised
+    /// meanwhile.
+    fn costs_of(
+        &self,
+        genomes: &[f32],
+        worlds: &TestDrives,
+        pairs: &[Pair],
+        stop: &StopFlag,
+    ) -> Option<Vec<Cost>> {
+        let (scenario, seed) = (&self.problem.scenario, self.seed);
         let random = |pair| validation_drive(seed, pair);
-        let stressed = self.problem.scenario.training.stressed_share.into();
-        let cars = Cars::OfTraining { stressed };
-        let drives = self.test_drives.of(genome, cars, &self.validation, &random, stop)?;
-        Some(fitness::total(&self.problem.scenario, &self.validation, &drives))
+        let cars = Cars::OfTraining { stressed: scenario.training.stressed_share.into() };
+        let drives = worlds.of(genomes, cars, pairs, &random, stop)?;
+        let each = drives.chunks(pairs.len());
+        Some(each.map(|drives| fitness::total(scenario, pairs, drives)).collect())
     }
 
     fn keep(&mut self, generation: u32, cost: Cost, index: usize, solves: bool) {
-        let comparable = !self.validation.is_empty() || self.problem.is_stationary();
+        let comparable = !self.validation.is_empty()
+            || (self.problem.is_stationary() && !holds_out(&self.problem.scenario.training));
         let known = self.best.as_ref().filter(|_| comparable);
         if solves || known.is_none_or(|known| cost < known.cost) {
             let genome = self.search.ask().genome(index).to_vec();
             self.best = Some(Best { genome, cost, generation, kept: self.kept.clone() });
         }
     }
+}
+
+/// Whether the champion is chosen in worlds that nobody is trained in.
+fn holds_out(spec: &TrainingSpec) -> bool {
+    spec.worlds.is_some_and(|worlds| worlds.held_out > 0)
 }
 
 fn run_id<'a>(

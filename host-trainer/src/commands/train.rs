@@ -145,7 +145,7 @@ impl Run {
             None => RunFolder::choose(Path::new("runs"), &problem.scenario.name, args.seed.0)?,
         };
         manifest(args.seed, &problem.scenario)?.write(&folder)?;
-        worlds::write(&folder, &training)?;
+        worlds::write(&folder, &training, 0)?;
         drop(training);
         let (checkpoints, _) = Checkpoints::open::<Snapshot>(&folder)?;
         Ok(Self { folder, seed: args.seed, problem, checkpoints, snapshot: None })

@@ -305,16 +305,36 @@ fn worlds(scenario: &Scenario, found: &mut Vec<Complaint>) {
         let detail = "found 0 of each kind, expected 1 or more of some kind";
         found.push(Complaint::new("training.worlds.boxes", title, detail).or_at("training.worlds"));
     }
-    if total > WorldsSpec::MOST {
-        let title = "there are too many worlds to train in";
-        let detail = format!("found {total}, expected at most {}", WorldsSpec::MOST);
+    let all = total.saturating_mul(worlds.held_out.saturating_add(1));
+    if all > WorldsSpec::MOST {
+        let title = "there are too many worlds to train in and to choose the champion in";
+        let detail = format!("found {all}, expected at most {}", WorldsSpec::MOST);
         found.push(Complaint::new("training.worlds", title, detail));
     }
     let title = "`training.worlds` draws pairs in each world";
     let validation = scenario.training.validation_pairs;
-    if validation > 0 && validation < total {
-        let detail =
-            format!("found {validation} pairs for {total} worlds, expected 0 or {total} or more");
+    if validation > 0 && worlds.renew_every > 0 && worlds.held_out == 0 {
+        let title = "worlds that make way for new ones cannot choose the champion";
+        let detail = format!(
+            "found a new world every {} generations, expected 1 or more for `held_out`, or 0 for \
+             `training.validation_pairs`",
+            worlds.renew_every
+        );
+        let complaint = Complaint::new("training.worlds.renew_every", title, detail);
+        found.push(complaint.or_at("training.validation_pairs"));
+    }
+    if validation == 0 && worlds.held_out > 0 {
+        let title = "no pairs would lie in the worlds that are to choose the champion";
+        let choosing = worlds.choosing();
+        let detail = format!("found 0 pairs for {choosing} worlds, expected {choosing} or more");
+        let complaint = Complaint::new("training.validation_pairs", title, detail);
+        found.push(complaint.or_at("training.worlds.held_out"));
+    }
+    let choosing = worlds.choosing();
+    if validation > 0 && validation < choosing {
+        let detail = format!(
+            "found {validation} pairs for {choosing} worlds, expected 0 or {choosing} or more"
+        );
         let complaint = Complaint::new("training.validation_pairs", title, detail);
         found.push(complaint.or_at("training.worlds"));
     }

@@ -225,8 +225,15 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
                 && !(1..40).contains(&training.validation_pairs)
             {
                 let side = [5.0 + episode.period, 5.0 + 2.0 * episode.period];
-                training.worlds =
-                    Some(WorldsSpec { boxes: 3, pillars: 0, rooms: 30, barn_like: 7, side });
+                training.worlds = Some(WorldsSpec {
+                    boxes: 3,
+                    pillars: 0,
+                    rooms: 10,
+                    barn_like: 7,
+                    side,
+                    renew_every: u32::from(training.validation_pairs >= 40) * training.population,
+                    held_out: u32::from(training.validation_pairs >= 40) * 2,
+                });
             }
             let ([distance, length, collision, bonus], [time, progress], (_, kind)) = costs;
             Scenario {

@@ -316,6 +316,12 @@ impl Record for WorldsSpec {
         v.value("rooms", &mut self.rooms, count, "worlds with rooms and doors");
         v.value("barn_like", &mut self.barn_like, count, "fields of cylinders, like BARN's");
         v.value("side_m", &mut self.side, shapes::Sides, "[shortest, longest] side of a world");
+        let generations = UnlessDefault(Whole { low: 0, high: *TrainingSpec::GENERATIONS.end() });
+        let about = "generations after which one is replaced; none is if left out";
+        v.value("renew_every", &mut self.renew_every, generations, about);
+        let times = UnlessDefault(Whole { low: 0, high: Self::MOST });
+        let about = "times as many others choose among the last generation; none if left out";
+        v.value("held_out", &mut self.held_out, times, about);
     }
 }
 

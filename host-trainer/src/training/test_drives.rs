@@ -1,10 +1,11 @@
 //! What a population's individuals are judged by: their drives, a share of them with a worse car.
 
-use super::grounds::{Ground, grounds};
+use super::grounds::{Ground, Plan};
 use crate::episode::Outcome;
 use crate::failure::Failure;
 use crate::pairs::PairSampler;
 use crate::problem::Problem;
+use crate::scenario::generate::Recipe;
 use crate::scenario::{Pair, Scenario};
 use crate::seed::{RunSeed, Stream};
 use crate::signals::StopFlag;
@@ -17,6 +18,8 @@ use rayon::prelude::*;
 #[derive(Debug)]
 pub(super) struct TestDrives {
     grounds: Vec<Ground>,
+    /// What each of them is, where the run makes them for itself.
+    made: Vec<(Plan, Recipe)>,
 }
 
 /// What cars the drives are made with.
@@ -35,12 +38,75 @@ struct Part<'a> {
 }
 
 impl TestDrives {
-    pub(super) fn new(problem: &Problem, seed: RunSeed) -> Result<Self, Failure> {
-        Ok(Self { grounds: grounds(problem, seed)? })
+    /// In the scenario's own world, or in those that its run makes for itself, as they are in this
+    /// generation.
+    ///
+    /// # Errors
+    ///
+    /// No way through any of many random fields.
+    pub(super) fn new(problem: &Problem, seed: RunSeed, generation: u32) -> Result<Self, Failure> {
+        let Some(worlds) = problem.scenario.training.worlds else {
+            return Ok(Self { grounds: vec![Ground::new(problem.clone())], made: Vec::new() });
+        };
+        Self::planned(problem, seed, Plan::of_generation(worlds, generation))
+    }
+
+    /// In the worlds that nobody is trained in; none if there are none.
+    ///
+    /// # Errors
+    ///
+    /// No way through any of many random fields.
+    pub(super) fn held_out(problem: &Problem, seed: RunSeed) -> Result<Option<Self>, Failure> {
+        let worlds = problem.scenario.training.worlds.filter(|worlds| worlds.held_out > 0);
+        worlds.map(|worlds| Self::planned(problem, seed, Plan::held_out(worlds))).transpose()
+    }
+
+    fn planned(problem: &Problem, seed: RunSeed, plans: Vec<Plan>) -> Result<Self, Failure> {
+        let (mut grounds, mut made) = (Vec::new(), Vec::new());
+        for plan in plans {
+            let (recipe, ground) = plan.made(problem, seed)?;
+            grounds.push(ground);
+            made.push((plan, recipe));
+        }
+        Ok(Self { grounds, made })
+    }
+
+    /// The worlds that the run made for itself.
+    pub(super) fn recipes(&self) -> impl Iterator<Item = Recipe> {
+        self.made.iter().map(|(_, recipe)| *recipe)
+    }
+
+    /// Makes the worlds that are new in this generation, in the places of others.
+    ///
+    /// # Errors
+    ///
+    /// No way through any of many random fields.
+    pub(super) fn renew(
+        &mut self,
+        problem: &Problem,
+        seed: RunSeed,
+        generation: u32,
+    ) -> Result<(), Failure> {
+        let Some(worlds) = problem.scenario.training.worlds else { return Ok(()) };
+        let plans = Plan::of_generation(worlds, generation);
+        for ((place, made), plan) in self.grounds.iter_mut().zip(&mut self.made).zip(plans) {
+            if made.0 != plan {
+                let (recipe, ground) = plan.made(problem, seed)?;
+                (*place, *made) = (ground, (plan, recipe));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether these are the worlds of that generation.
+    pub(super) fn are_of(&self, problem: &Problem, generation: u32) -> bool {
+        let worlds = problem.scenario.training.worlds;
+        let plans = worlds.map_or(Vec::new(), |worlds| Plan::of_generation(worlds, generation));
+        self.made.iter().map(|(plan, _)| plan).eq(&plans)
     }
 
     /// The scenarios of the worlds that the run made for itself.
-    pub(super) fn made(&self) -> impl Iterator<Item = &Scenario> {
+    pub(super) fn scenarios(&self) -> impl Iterator<Item = &Scenario> {
         let scenarios = self.grounds.iter().map(|ground| &ground.as_described().scenario);
         scenarios.filter(|scenario| scenario.training.worlds.is_some())
     }
@@ -157,7 +223,7 @@ mod tests {
             let text = format!("[pairs]\ncount = 9\n[training]\nstressed_share = 0.5\n{worlds}");
             let source = scenario::Source::new("a.toml", text, std::path::Path::new(""));
             let problem = Problem::new(scenario::load(&source, None, &[]).unwrap()).unwrap();
-            let drives = TestDrives::new(&problem, RunSeed(1)).unwrap();
+            let drives = TestDrives::new(&problem, RunSeed(1), 0).unwrap();
             let parts = drives.parts(9, Cars::OfTraining { stressed: 0.5 });
             let is_worse = |part: &&Part<'_>| part.problem.scenario.vehicle.delay_periods > 0;
             let stressed: usize = parts.iter().filter(is_worse).map(|part| part.places.len()).sum();
@@ -216,7 +282,7 @@ mod tests {
         scenario.training.footprint_padding = 0.1;
         scenario.training.stressed_share = 0.5;
         let problem = Problem::new(scenario).unwrap();
-        let drives = TestDrives::new(&problem, RunSeed(1)).unwrap();
+        let drives = TestDrives::new(&problem, RunSeed(1), 0).unwrap();
         let cars = drives.parts(8, Cars::OfTraining { stressed: 0.5 });
         let of = |part: &Part<'_>| {
             let vehicle = &part.problem.scenario.vehicle;
@@ -258,7 +324,7 @@ mod tests {
         let weights = 2 * problem.topology().weights();
         let genomes: Vec<f32> = (0..weights).map(|i| libm::sinf(i as f32)).collect();
         let random = |pair| training_drive(RunSeed(1), 4, pair);
-        let drives = TestDrives::new(problem, RunSeed(1)).unwrap();
+        let drives = TestDrives::new(problem, RunSeed(1), 0).unwrap();
         drives.of(&genomes, cars, pairs, &random, &StopFlag::default()).unwrap()
     }
 }

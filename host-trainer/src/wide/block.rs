@@ -96,12 +96,8 @@ impl<'a, V: Vector> Block<'a, V> {
     #[inline(never)]
     fn refill(&mut self) {
         self.has_room = false;
-        if !self.queue.has_drives() {
-            self.waiting = 0;
-            self.close_ranks();
-            return;
-        }
-        for lane in 0..V::WIDTH {
+        let lanes = if self.queue.has_drives() { V::WIDTH } else { 0 };
+        for lane in 0..lanes {
             for slot in 0..SLOTS {
                 if self.cars[slot].live >> lane & 1 == 0
                     && let Some(pair) = self.next_pair(lane, slot)
@@ -115,8 +111,12 @@ impl<'a, V: Vector> Block<'a, V> {
                 }
             }
         }
-        let may_separate = self.networks.may_separate() && self.queue.has_drives();
-        self.waiting = if may_separate { self.idle() } else { 0 };
+        self.waiting = 0;
+        if !self.queue.has_drives() {
+            self.close_ranks();
+        } else if self.networks.may_separate() {
+            self.waiting = self.idle();
+        }
     }
 
     /// What a car drives next: another pair for the individual whose weights it has, or, once
@@ -158,7 +158,7 @@ impl<'a, V: Vector> Block<'a, V> {
     }
 
     /// Once nothing is left to begin: has cars of the last slots take the places of those in the first
-    /// that are done, so that whole slots are empty, which cost a period next to nothing.
+    /// that are done, so that whole slots are empty, which neither look around nor touch anything.
     fn close_ranks(&mut self) {
         let enough = (SLOTS * V::WIDTH - self.idle()).div_ceil(V::WIDTH);
         if self.cars[enough..].iter().all(|cars| cars.live == 0) {

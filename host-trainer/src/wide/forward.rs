@@ -90,6 +90,7 @@ impl<V: Vector> Networks<V> {
         (slot, lane): (usize, usize),
         (to_slot, to_lane): (usize, usize),
     ) {
+        debug_assert_eq!(self.sharing(slot).len(), 1, "others would lose their weights");
         if let Weights::OfCars(weights) = &mut self.weights {
             for Weight(weight) in weights {
                 weight[to_slot].lanes_mut()[to_lane] = weight[slot].lanes()[lane];

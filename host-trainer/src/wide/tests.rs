@@ -365,7 +365,7 @@ fn cars_stay_together_where_hardly_any_would_wait() {
 
 #[test]
 fn at_the_end_of_a_fleet_cars_take_no_more_slots_than_they_have_to() {
-    for (individuals, count) in [(300, 5), (20, 200), (1, 200)] {
+    for (individuals, count) in [(300, 5), (20, 200), (1, 200), (3, 5), (1, 5)] {
         let Waited { ending, spread, .. } = waiting(individuals, count, 12, false);
         assert!(ending > 20 && spread == 0, "{individuals}, {count}: {spread} of {ending}");
     }

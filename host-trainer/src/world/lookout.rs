@@ -58,11 +58,12 @@ use std::sync::Arc;
 pub use fan::Fan;
 pub use shelf::Survey;
 
-/// Distances and contacts of cars in one world, whose bodies do not reach beyond a largest one.
+/// Distances and contacts of cars whose bodies do not reach beyond a largest one, in one world.
 #[derive(Debug)]
 pub struct Lookout {
     obstacles: Arc<Obstacles>,
     range: f32,
+    largest: Body<f32>,
     slack: f32,
     grid: Grid,
     shelf: Shelf,
@@ -78,7 +79,7 @@ impl Lookout {
         let grid = Grid::new(low, high, Shelf::are_many(&obstacles));
         let field = Field::new(&obstacles, range, &largest);
         let shelf = Shelf::new(&obstacles, &grid, range, largest, field.is_none());
-        Self { slack: shelf.slack(), obstacles, range, grid, shelf, field }
+        Self { slack: shelf.slack(), obstacles, range, largest, grid, shelf, field }
     }
 
     /// How far the beams of cars at these poses go, metres: the distance to the nearest obstacle, or
@@ -164,6 +165,7 @@ impl Lookout {
         poses: &[Pose<V>; N],
         live: &[u32; N],
     ) -> [u32; N] {
+        debug_assert!(is_within(body, &self.largest), "{body:?} reaches beyond {:?}", self.largest);
         let mut live = *live;
         if let Some(field) = &self.field {
             for car in 0..N {
@@ -295,4 +297,12 @@ impl Lookout {
     pub fn survey(&self) -> Survey {
         self.shelf.survey(&self.grid, &self.obstacles)
     }
+}
+
+/// Whether a body does not reach beyond another, but for what rounding adds to it, which the margins
+/// of contacts allow for.
+fn is_within(body: &Body<f32>, largest: &Body<f32>) -> bool {
+    let reach = |body: &Body<f32>| [-body.rear, body.front, body.half_width];
+    let pairs = reach(body).into_iter().zip(reach(largest));
+    pairs.into_iter().all(|(own, most)| own <= most + 1.0e-6)
 }

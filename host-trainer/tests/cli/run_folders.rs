@@ -44,6 +44,25 @@ fn a_used_folder_is_never_overwritten() {
     assert!(before == [bench.all_files("run"), bench.all_files("mine")]);
 }
 
+#[test]
+fn a_run_with_ever_new_worlds_leaves_the_first_and_the_champions_in_its_folder() {
+    let bench = Bench::new();
+    let worlds = [
+        "training.worlds.rooms=2",
+        "training.worlds.renew_every=1",
+        "pairs.count=6",
+        "training.generations=2",
+    ];
+    let settings = worlds.map(|setting| format!("--set={setting}"));
+    bench.train("open", "run", &settings.each_ref().map(String::as_str)).ends_in(0);
+    let files = bench.all_files("run");
+    let made = |ending| {
+        files.keys().filter(|name| name.starts_with("worlds/") && name.ends_with(ending)).count()
+    };
+    // Two of the first generation, and the two that are there in the third.
+    assert_eq!([made(".toml"), made(".svg")], [4, 4]);
+}
+
 /// Its worlds are scenarios like any other, and the report says where it was trained.
 #[test]
 fn a_run_in_random_worlds_leaves_them_in_its_folder() {

@@ -5,7 +5,6 @@ use host_trainer::fitness;
 use host_trainer::pairs::PairSampler;
 use host_trainer::problem::{Problem, training_drive, validation_drive};
 use host_trainer::scenario::WorldSpec;
-use host_trainer::scenario::generate::Recipe;
 use host_trainer::seed::RunSeed;
 use host_trainer::signals::StopFlag;
 use host_trainer::training::{ResumeError, Snapshot, Training};
@@ -85,6 +84,11 @@ fn elsewhere() -> String {
     stressed().replace("mine = 0.5", "").replace("[training.ga]", worlds)
 }
 
+/// The same in random worlds that make way for new ones, with others to choose the champion in.
+fn ever_elsewhere() -> String {
+    elsewhere().replace("side_m", "renew_every = 2\nheld_out = 2\nside_m")
+}
+
 /// A search by novelty, which keeps an archive.
 const NOVEL: &str = "
     [world]
@@ -116,7 +120,8 @@ fn trained(problem: &Problem, threads: usize, generations: u32) -> Vec<u8> {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
-    for settings in [EXACT, NOISY, CHANGING, &stressed(), &elsewhere(), NOVEL] {
+    let runs = [EXACT, NOISY, CHANGING, &stressed(), &elsewhere(), &ever_elsewhere(), NOVEL];
+    for settings in runs {
         let problem = Problem::new(from_toml(settings)).unwrap();
         let alone = trained(&problem, 1, 3);
         for threads in [2, 7] {
@@ -127,9 +132,16 @@ fn any_number_of_threads_gives_the_same_bytes() {
 
 #[test]
 fn a_run_goes_on_from_its_snapshot_as_if_nothing_had_happened() {
-    for (settings, before) in
-        [(EXACT, 2), (NOISY, 2), (CHANGING, 9), (&stressed(), 2), (&elsewhere(), 2), (NOVEL, 4)]
-    {
+    let (stressed, elsewhere, ever_elsewhere) = (&stressed(), &elsewhere(), &ever_elsewhere());
+    for (settings, before) in [
+        (EXACT, 2),
+        (NOISY, 2),
+        (CHANGING, 9),
+        (stressed, 2),
+        (elsewhere, 2),
+        (ever_elsewhere, 9),
+        (NOVEL, 4),
+    ] {
         let problem = Problem::new(from_toml(settings)).unwrap();
         let mut first = Training::new(&problem, RunSeed(5)).unwrap();
         for _ in 0..before {
@@ -269,14 +281,25 @@ fn drives_are_under_stress_from_the_second_generation_on_or_as_soon_as_asked() {
 /// The oracle drives each pair alone, in a world made by hand as the run says it made it.
 #[test]
 fn every_pair_is_driven_in_the_random_world_whose_turn_it_is() {
-    let problem = Problem::new(from_toml(&elsewhere())).unwrap();
+    assert_driven_in_its_world(&elsewhere(), 1);
+    // The best of the fifth generation, after its worlds have gone.
+    assert_driven_in_its_world(&ever_elsewhere(), 5);
+}
+
+fn assert_driven_in_its_world(settings: &str, generations: u32) {
+    let problem = Problem::new(from_toml(settings)).unwrap();
     let mut training = Training::new(&problem, RunSeed(5)).unwrap();
-    training.step().unwrap();
-    let best = training.best().unwrap();
+    for _ in 0..generations {
+        training.step().unwrap();
+    }
+    let best = &training.best().unwrap().clone();
+    for _ in 0..4 {
+        training.step().unwrap();
+    }
     let (pairs, drives) =
         (training.pairs_of(best).unwrap(), training.drives_of(best, &StopFlag::default()));
     let drives = drives.unwrap().unwrap();
-    let worlds: Vec<Recipe> = training.worlds().collect();
+    let worlds = training.worlds_in(best.generation).unwrap();
     assert_eq!(worlds.len(), 3);
     for (index, pair) in pairs.iter().enumerate() {
         let mut scenario = problem.scenario.clone();
@@ -297,7 +320,7 @@ fn random_worlds_are_those_of_the_seed_whatever_the_own_world_is() {
         let problem = Problem::new(from_toml(&settings)).unwrap();
         let mut training = Training::new(&problem, RunSeed(seed)).unwrap();
         training.step().unwrap();
-        (training.worlds().collect::<Vec<_>>(), training.best().cloned())
+        (training.worlds_in(0).unwrap(), training.best().cloned())
     };
     assert_eq!(best(5, "[4, 4, 6, 6]"), best(5, "[1, 2, 9, 3]"));
     assert_ne!(best(5, "[4, 4, 6, 6]").0, best(6, "[4, 4, 6, 6]").0);

@@ -1,5 +1,6 @@
 //! The end of a training run: champion, plots, report, and what to do next.
 
+use super::worlds;
 use crate::champion;
 use crate::commands::advice::{counted, in_shell, this_program};
 use crate::commands::setup::shortest_name;
@@ -94,8 +95,8 @@ impl Films {
             Pairs::Training if self.drives.len() == self.of => String::new(),
             Pairs::Training => format!(" The first {} are shown.", counted(shown, "training pair")),
             Pairs::Unseen => format!(
-                " It was trained in random worlds, which lie in the folder {} beside this page; shown \
-                 are drives of the first {} in this one.",
+                " It was trained in random worlds; those of the first generation and of the champion's \
+                 lie in the folder {} beside this page. Shown are drives of the first {} in this one.",
                 RunFolder::WORLDS,
                 counted(shown, "unseen pair")
             ),
@@ -143,6 +144,7 @@ pub(super) fn finish(
         collisions: trained.iter().map(|outcome| u64::from(outcome.collisions)).sum(),
     };
     let films = if problem.scenario.training.worlds.is_some() {
+        worlds::write(folder, training, best.generation)?;
         // Its training pairs lie elsewhere.
         Films::of(problem, best, Pairs::Unseen, &unseen, never_seen)
     } else {

@@ -58,8 +58,8 @@ impl<const N: usize> Asked<N> {
         }
     }
 
-    /// Writes down the words of all questions. As many of them are about each set of lanes in `live`, one
-    /// set after the other; where none is live, nothing is asked.
+    /// Writes down the words of all questions. They go by car, as many for each; those of a car without
+    /// a lane in `live` are left out.
     #[inline(always)]
     pub(super) fn answer<V: Vector>(
         &mut self,
