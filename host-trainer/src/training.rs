@@ -345,14 +345,15 @@ impl<'a> Training<'a> {
             .collect();
         let best = self.best_of(&costs, &drives, pairs.len());
         let row = row::row(generation, &costs, &drives, pairs.len(), best);
-        let is_last = generation + 1 >= spec.generations || self.solves(&row);
+        let solves = self.solves(&row);
+        let is_last = generation + 1 >= spec.generations || solves;
         let chosen = if is_last && holds_out(spec) {
             self.chosen_elsewhere(stop)?
         } else {
             self.validated(best, costs[best], stop).map(|cost| (best, cost))
         };
         let Some((chosen, cost)) = chosen else { return Ok(None) };
-        self.keep(generation, cost, chosen, self.solves(&row));
+        self.keep(generation, cost, chosen, solves);
         self.kept = hard::hardest(&pairs, &drives, scenario.pairs.mine);
         self.ends = ends(&drives, pairs.len());
         match &mut self.novelty {

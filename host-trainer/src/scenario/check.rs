@@ -312,7 +312,7 @@ fn worlds(scenario: &Scenario, found: &mut Vec<Complaint>) {
         found.push(Complaint::new("training.worlds", title, detail));
     }
     let title = "`training.worlds` draws pairs in each world";
-    let validation = scenario.training.validation_pairs;
+    let (validation, choosing) = (scenario.training.validation_pairs, worlds.choosing());
     if validation > 0 && worlds.renew_every > 0 && worlds.held_out == 0 {
         let title = "worlds that make way for new ones cannot choose the champion";
         let detail = format!(
@@ -325,12 +325,10 @@ fn worlds(scenario: &Scenario, found: &mut Vec<Complaint>) {
     }
     if validation == 0 && worlds.held_out > 0 {
         let title = "no pairs would lie in the worlds that are to choose the champion";
-        let choosing = worlds.choosing();
         let detail = format!("found 0 pairs for {choosing} worlds, expected {choosing} or more");
         let complaint = Complaint::new("training.validation_pairs", title, detail);
         found.push(complaint.or_at("training.worlds.held_out"));
     }
-    let choosing = worlds.choosing();
     if validation > 0 && validation < choosing {
         let detail = format!(
             "found {validation} pairs for {choosing} worlds, expected 0 or {choosing} or more"

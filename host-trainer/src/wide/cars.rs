@@ -75,25 +75,24 @@ impl<'a, V: Vector> Cars<'a, V> {
         exemplar: &Exemplar,
         (pair, random): (usize, Stream),
     ) {
-        let Self { pose, target, .. } = self;
-        let places = [
-            (&mut pose.x, start.x),
-            (&mut pose.y, start.y),
-            (&mut pose.heading, start.heading),
-            (&mut pose.cos, start.cos),
-            (&mut pose.sin, start.sin),
-            (&mut target.centre.0, goal[0]),
-            (&mut target.centre.1, goal[1]),
-            (&mut self.wheelbase, exemplar.wheelbase),
-            (&mut self.step_scale, exemplar.step_scale),
-            (&mut self.steer_offset, exemplar.steer_offset),
-            (&mut self.steer, 0.0),
-            (&mut self.path_length, 0.0),
-            (&mut self.collisions, 0.0),
-            (&mut self.blocked, 0.0),
+        let numbers = [
+            start.x,
+            start.y,
+            start.heading,
+            start.cos,
+            start.sin,
+            goal[0],
+            goal[1],
+            exemplar.wheelbase,
+            exemplar.step_scale,
+            exemplar.steer_offset,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
         ];
-        for (place, value) in places {
-            place.lanes_mut()[lane] = value;
+        for (place, number) in self.numbers().into_iter().zip(numbers) {
+            place.lanes_mut()[lane] = number;
         }
         for value in self.waiting.iter_mut().flatten() {
             value.lanes_mut()[lane] = 0.0;
@@ -102,28 +101,32 @@ impl<'a, V: Vector> Cars<'a, V> {
         self.live |= 1 << lane;
     }
 
+    /// Every number of a car but for the commands on their way.
+    #[inline(always)]
+    fn numbers(&mut self) -> [&mut V; 14] {
+        let Self { pose, target, .. } = self;
+        [
+            &mut pose.x,
+            &mut pose.y,
+            &mut pose.heading,
+            &mut pose.cos,
+            &mut pose.sin,
+            &mut target.centre.0,
+            &mut target.centre.1,
+            &mut self.wheelbase,
+            &mut self.step_scale,
+            &mut self.steer_offset,
+            &mut self.steer,
+            &mut self.path_length,
+            &mut self.collisions,
+            &mut self.blocked,
+        ]
+    }
+
     /// Has the car in a lane go on in a lane of others of the same model.
     pub(super) fn shift(&mut self, lane: usize, others: &mut Self, to: usize) {
-        let Self { pose, target, .. } = self;
-        let Self { pose: to_pose, target: to_target, .. } = others;
-        let places = [
-            (&mut to_pose.x, pose.x),
-            (&mut to_pose.y, pose.y),
-            (&mut to_pose.heading, pose.heading),
-            (&mut to_pose.cos, pose.cos),
-            (&mut to_pose.sin, pose.sin),
-            (&mut to_target.centre.0, target.centre.0),
-            (&mut to_target.centre.1, target.centre.1),
-            (&mut others.wheelbase, self.wheelbase),
-            (&mut others.step_scale, self.step_scale),
-            (&mut others.steer_offset, self.steer_offset),
-            (&mut others.steer, self.steer),
-            (&mut others.path_length, self.path_length),
-            (&mut others.collisions, self.collisions),
-            (&mut others.blocked, self.blocked),
-        ];
-        for (place, value) in places {
-            place.lanes_mut()[to] = value.lanes()[lane];
+        for (place, number) in others.numbers().into_iter().zip(self.numbers()) {
+            place.lanes_mut()[to] = number.lanes()[lane];
         }
         // Others may have stood still meanwhile: what is due next is in another place there.
         let periods = self.waiting.len();

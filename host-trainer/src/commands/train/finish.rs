@@ -143,8 +143,10 @@ pub(super) fn finish(
         clean: trained.iter().filter(|outcome| Outcome::clean(outcome)).count(),
         collisions: trained.iter().map(|outcome| u64::from(outcome.collisions)).sum(),
     };
-    let films = if problem.scenario.training.worlds.is_some() {
-        worlds::write(folder, training, best.generation)?;
+    let films = if let Some(spec) = problem.scenario.training.worlds {
+        if spec.renew_every > 0 {
+            worlds::write(folder, training, best.generation)?;
+        }
         // Its training pairs lie elsewhere.
         Films::of(problem, best, Pairs::Unseen, &unseen, never_seen)
     } else {
