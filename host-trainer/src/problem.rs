@@ -9,7 +9,7 @@ use crate::pairs::PairSampler;
 use crate::scenario::{Pair, Scenario, StepLength, words_of};
 use crate::seed::{Purpose, RunSeed, Stream};
 use crate::world::free_space::FreeSpace;
-use crate::world::{Lookout, World};
+use crate::world::{Cells, Lookout, World};
 use controller_core::activation::ActivationKind;
 use controller_core::blob::Header;
 use controller_core::controller::Scaling;
@@ -42,11 +42,24 @@ impl Problem {
     ///
     /// A map that cannot be read.
     pub fn new(scenario: Scenario) -> Result<Self, Failure> {
+        Self::seen_in(Cells::Fine, scenario)
+    }
+
+    /// The same for a world that is soon left: it is known sooner, and drives are a little slower.
+    ///
+    /// # Errors
+    ///
+    /// A map that cannot be read.
+    pub fn for_a_while(scenario: Scenario) -> Result<Self, Failure> {
+        Self::seen_in(Cells::Coarse, scenario)
+    }
+
+    fn seen_in(cells: Cells, scenario: Scenario) -> Result<Self, Failure> {
         let world = World::new(&scenario)?;
         let model = CarModel::new(&scenario);
         let largest = scenario.vehicle.padded(scenario.training.footprint_padding);
         Ok(Self {
-            lookout: Arc::new(world.lookout(model.range(), body_of(&largest))),
+            lookout: Arc::new(world.lookout_in(cells, model.range(), body_of(&largest))),
             space: Arc::default(),
             world: Arc::new(world),
             model,

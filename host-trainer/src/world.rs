@@ -21,7 +21,7 @@ use parry2d::utils::point_in_poly2d;
 use std::sync::Arc;
 
 pub use build::{MAX_OUTLINE, WorldError};
-pub use lookout::{Fan, Lookout, Survey};
+pub use lookout::{Cells, Fan, Lookout, Survey};
 pub use obstacles::Obstacles;
 
 /// Walls are lengthened by this much at both ends, metres, so that a beam aimed exactly at a
@@ -66,7 +66,12 @@ impl World {
     /// The world as cars with beams of this range and with this body see and touch it: quicker
     /// than [`Self::distance`] and [`Self::touches`], with the same bits.
     pub fn lookout(&self, range: f32, body: Body<f32>) -> Lookout {
-        Lookout::new(Arc::clone(&self.obstacles), range, body)
+        self.lookout_in(Cells::Fine, range, body)
+    }
+
+    /// The same, by cells of this kind.
+    pub fn lookout_in(&self, cells: Cells, range: f32, body: Body<f32>) -> Lookout {
+        Lookout::new(Arc::clone(&self.obstacles), range, body, cells)
     }
 
     /// Whether an obstacle's edge lies between two points.

@@ -130,6 +130,7 @@ impl Plan {
         let scenario = &problem.scenario;
         let worlds = scenario.training.worlds.expect("only such a run has plans");
         let (group, index) = self.at;
+        let is_soon_left = group == HELD_OUT || worlds.renew_every > 0;
         let mut random = seed.stream(Purpose::TrainingWorld, group, index);
         let mut draw = || {
             let recipe = Recipe::drawn(self.kind, worlds.side, &mut random);
@@ -137,7 +138,7 @@ impl Plan {
                 Failure::bad_input(format!("training.worlds: {recipe}: {error}"))
             };
             let world = recipe.scenario().map_err(|error| failed(&error))?;
-            let problem = with_world(scenario, world)?;
+            let problem = with_world(scenario, world, is_soon_left)?;
             problem.sampler().unseen(seed, PAIRS).map_err(|none| failed(&none))?;
             Ok((recipe, Ground::new(problem)))
         };
@@ -159,7 +160,7 @@ fn kinds(worlds: WorldsSpec) -> impl Iterator<Item = (u32, Kind)> {
 }
 
 /// The scenario's car and target in a world that was made.
-fn with_world(scenario: &Scenario, made: Scenario) -> Result<Problem, Failure> {
+fn with_world(scenario: &Scenario, made: Scenario, is_soon_left: bool) -> Result<Problem, Failure> {
     let mut scenario =
         Scenario { name: made.name, description: made.description, ..scenario.clone() };
     let target_radius = scenario.world.target_radius;
@@ -167,7 +168,7 @@ fn with_world(scenario: &Scenario, made: Scenario) -> Result<Problem, Failure> {
     scenario.world.target_radius = target_radius;
     let [width, height] = scenario.world.bounds.size();
     scenario.pairs.min_distance = scenario.pairs.min_distance.min(0.5 * width.min(height));
-    Problem::new(scenario)
+    if is_soon_left { Problem::for_a_while(scenario) } else { Problem::new(scenario) }
 }
 
 #[cfg(test)]

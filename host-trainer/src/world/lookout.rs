@@ -56,6 +56,7 @@ use shelf::{Question, Shelf, Sure};
 use std::sync::Arc;
 
 pub use fan::Fan;
+pub use grid::Cells;
 pub use shelf::Survey;
 
 /// Distances and contacts of cars whose bodies do not reach beyond a largest one, in one world.
@@ -74,9 +75,10 @@ pub struct Lookout {
 impl Lookout {
     /// Prepares for beams that reach `range` metres, and for bodies within the `largest`. Costs next
     /// to nothing: cells are looked at where a car turns up.
-    pub fn new(obstacles: Arc<Obstacles>, range: f32, largest: Body<f32>) -> Self {
+    pub fn new(obstacles: Arc<Obstacles>, range: f32, largest: Body<f32>, cells: Cells) -> Self {
         let [low, high] = obstacles.bounds();
-        let grid = Grid::new(low, high, Shelf::are_many(&obstacles));
+        let cells = if Shelf::are_many(&obstacles) { Cells::Coarse } else { cells };
+        let grid = Grid::new(low, high, cells);
         let field = Field::new(&obstacles, range, &largest);
         let shelf = Shelf::new(&obstacles, &grid, range, largest, field.is_none());
         Self { slack: shelf.slack(), obstacles, range, largest, grid, shelf, field }

@@ -7,7 +7,7 @@ use controller_core::motion::Pose;
 use controller_core::observation::{BEAMS, BeamMount};
 use host_trainer::car::body_of;
 use host_trainer::seed::Stream;
-use host_trainer::world::{Fan, Lookout, Obstacles};
+use host_trainer::world::{Cells, Fan, Lookout, Obstacles};
 use proptest::prelude::*;
 use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
@@ -77,8 +77,18 @@ struct Pair {
 
 impl Pair {
     fn new(walls: Vec<Segment<f32>>, discs: Vec<Disc<f32>>, fan: Fan, body: Body<f32>) -> Self {
+        Self::by(Cells::Fine, walls, discs, fan, body)
+    }
+
+    fn by(
+        cells: Cells,
+        walls: Vec<Segment<f32>>,
+        discs: Vec<Disc<f32>>,
+        fan: Fan,
+        body: Body<f32>,
+    ) -> Self {
         let obstacles = Arc::new(Obstacles::new(walls.clone(), discs.clone()));
-        let lookout = Lookout::new(obstacles, fan.range(), body);
+        let lookout = Lookout::new(obstacles, fan.range(), body, cells);
         Self { lookout, truth: OneByOne { walls, discs }, fan, body, seen: 0, touched: 0 }
     }
 
@@ -298,6 +308,7 @@ proptest! {
         offset in prop_oneof![Just((0.0_f32, 0.0_f32)), (-0.4_f32..0.4, -0.2_f32..0.2)],
         crowded: bool,
         outside in proptest::bool::weighted(0.2),
+        coarse: bool,
     ) {
         let mut random = random(!seed);
         let mut scene = Scene { stream: crate::worlds::random(seed), size, offset: (far, -0.5 * far) };
@@ -309,7 +320,8 @@ proptest! {
         mounts[0].x = offset.0;
         mounts[3].x = 0.5 * offset.0;
         mounts[4].y = offset.1;
-        let mut pair = Pair::new(walls.clone(), discs, Fan::new(&mounts, range), BODY);
+        let cells = if coarse { Cells::Coarse } else { Cells::Fine };
+        let mut pair = Pair::by(cells, walls.clone(), discs, Fan::new(&mounts, range), BODY);
         for _ in 0..80 {
             let mut pose = scene.pose(&walls, &mounts);
             if outside {
@@ -317,6 +329,51 @@ proptest! {
                 pose.y = scene.offset.1 + 1.2 * size + random.within(-0.4, 0.4);
             }
             pair.compare(&pose);
+        }
+    }
+}
+
+/// Walls are lengthened where they meet: by how much beams pass a corner decides which they meet.
+#[test]
+fn a_beam_that_passes_a_corner_by_a_hair_meets_what_every_obstacle_says() {
+    let mut random = random(5);
+    let places = [(0.0_f32, Cells::Fine), (30.0, Cells::Coarse), (600.0, Cells::Fine)];
+    for (far, cells) in places.into_iter().chain([(20_000.0, Cells::Fine)]) {
+        let overlap = 1e-5_f32.max(8.0 * f32::EPSILON * far);
+        for crowded in [false, true] {
+            let mut scene =
+                Scene { stream: crate::worlds::random(9), size: 6.0, offset: (far, -0.7 * far) };
+            let mut walls = Vec::new();
+            let mut corners = Vec::new();
+            for (corner, degrees) in
+                [(90.0_f32, 0.0_f32), (90.0, 25.0), (40.0, 10.0), (140.0, 60.0)]
+                    .into_iter()
+                    .cycle()
+                    .take(12)
+            {
+                let (x, y) = scene.place();
+                let at = |degrees: f32, length: f32| {
+                    let (sin, cos) = libm::sincosf(degrees.to_radians());
+                    (x + length * cos, y + length * sin)
+                };
+                let outline = [(x, y), at(degrees, 0.9), at(degrees + corner, 0.7)];
+                scene.outline(&outline, &mut walls);
+                corners.extend(outline);
+            }
+            if crowded {
+                walls.extend(scene.posts());
+            }
+            let fan = Fan::new(&mounts(USUAL), 10.0);
+            let mut pair = Pair::by(cells, walls, Vec::new(), fan, BODY);
+            for _ in 0..4_000 {
+                let (x, y) = scene.place();
+                let corner = corners[random.index(corners.len())];
+                let way = libm::hypotf(corner.0 - x, corner.1 - y);
+                let aside = random.within(-9.0, 9.0) * overlap / way.max(overlap);
+                let heading = libm::atan2f(corner.1 - y, corner.0 - x) + aside;
+                pair.compare(&Pose::new(x, y, heading));
+            }
+            assert!(pair.seen > 10_000, "{far}: {} beams met something", pair.seen);
         }
     }
 }

@@ -71,20 +71,26 @@ fn directions(shape: &Shape, cell: &Rect, aside: f64) -> (f64, f64) {
     let [a, b] = shape.ends;
     let middle = [(a[0] + b[0]) * 0.5, (a[1] + b[1]) * 0.5];
     let towards = minus(middle, grown.middle());
-    let (mut right, mut left) = (0.0_f64, 0.0_f64);
+    let (mut rightmost, mut leftmost) = (towards, towards);
     for end in shape.ends {
         for corner in grown.corners() {
             let point = minus(end, corner);
-            let turn = libm::atan2(cross(towards, point), dot(towards, point));
-            (right, left) = (right.min(turn), left.max(turn));
+            if cross(rightmost, point) < 0.0 {
+                rightmost = point;
+            }
+            if cross(leftmost, point) > 0.0 {
+                leftmost = point;
+            }
         }
     }
+    let turn = |point: Point| libm::atan2(cross(towards, point), dot(towards, point));
+    let (right, left) = (turn(rightmost), turn(leftmost));
     let middle = libm::atan2(towards[1], towards[0]) + (right + left) * 0.5;
     let middle = if middle < 0.0 { middle + TAU } else { middle };
     (middle, (left - right) * 0.5 + 1.0e-9)
 }
 
-/// Everything that beams from a cell may meet, in any direction; the nearest first.
+/// Everything that beams from a cell may meet, in any direction.
 pub(super) fn all(
     obstacles: &Obstacles,
     cell: &Rect,
@@ -101,6 +107,5 @@ pub(super) fn all(
             candidates.push(candidate);
         }
     });
-    candidates.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
     candidates
 }

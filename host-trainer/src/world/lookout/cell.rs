@@ -54,6 +54,9 @@ impl Surroundings {
         mut f: impl FnMut(u32, &Sight<'_>),
     ) {
         let candidates = candidate::all(obstacles, cell, self.range, &self.limits);
+        let mut nearest_first: Vec<&Candidate> = candidates.iter().collect();
+        nearest_first
+            .sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
         let (mut around, mut met) = (Vec::new(), Vec::new());
         let (mut in_sight, mut in_light) = (Vec::new(), Vec::new());
         let write = |places: &mut Vec<u32>, met: &[&Candidate]| {
@@ -63,7 +66,7 @@ impl Surroundings {
         for (few, first) in self.bins.chunks(TOGETHER).zip((0..).step_by(TOGETHER)) {
             let all = Arc::around(few);
             around.clear();
-            around.extend(candidates.iter().filter(|candidate| candidate.is_met(&all)));
+            around.extend(nearest_first.iter().filter(|candidate| candidate.is_met(&all)));
             let hidden_in_all = match around.len() {
                 0 | 1 => Hidden::nothing(),
                 _ => Cone::new(cell, &all, &self.limits).keep_in_sight(&mut around),

@@ -4,11 +4,11 @@ use crate::vector::Vector;
 use crate::world::shape::{Point, Rect};
 use std::f32::consts::TAU;
 
-/// Side of a cell in a world with few obstacles, metres.
-const SIDE: f32 = 0.125;
+/// Side of a cell, metres.
+const FINE_SIDE: f32 = 0.125;
 
-/// The same in a world with many, where it takes long to look around from a cell.
-const LARGE_SIDE: f32 = 0.25;
+/// Side of a larger one.
+const COARSE_SIDE: f32 = 0.25;
 
 /// Cells along a tile.
 pub(super) const TILE: usize = 16;
@@ -23,6 +23,16 @@ const ROUND: f32 = 12_582_912.0;
 /// `sin_cos`, `wrap`, turning by a mount and the choice of a part round away.
 const TURN_MARGIN: f64 = 1.0e-5;
 
+/// How closely a world is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cells {
+    /// Short lists, of many cells: for a world that is driven in again and again.
+    Fine,
+    /// Longer lists of a quarter of the cells, to be found sooner: for a world that is soon left, or
+    /// has so many obstacles that it takes long to look around.
+    Coarse,
+}
+
 /// Upright square cells around points that are whole sides from the origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid {
@@ -35,8 +45,12 @@ pub(super) struct Grid {
 
 impl Grid {
     /// Cells over a rectangle, metres.
-    pub(super) fn new(low: [f32; 2], high: [f32; 2], has_many: bool) -> Self {
-        Self::of_side(low, high, if has_many { LARGE_SIDE } else { SIDE })
+    pub(super) fn new(low: [f32; 2], high: [f32; 2], cells: Cells) -> Self {
+        let side = match cells {
+            Cells::Fine => FINE_SIDE,
+            Cells::Coarse => COARSE_SIDE,
+        };
+        Self::of_side(low, high, side)
     }
 
     /// The same, of this side or a larger one.

@@ -30,6 +30,9 @@ const MOST_RANGES: f64 = 4.0;
 pub(super) struct Limits {
     /// Ends of walls closer than this meet, metres.
     pub(super) joint: f64,
+    /// The computed distance of an obstacle that may hide others, or of one not larger than those, is off
+    /// by at most this / sin(angle), metres.
+    pub(super) ahead: f64,
     /// A beam that passes a wall's end within this is not to be trusted, metres.
     pub(super) slack: f64,
     /// Obstacles larger than this hide nothing, metres: rounding grows with their size, and so would
@@ -45,12 +48,11 @@ impl Limits {
         let joint = f64::from(joint);
         let largest = largest.min(MOST_RANGES * f64::from(range));
         let ahead = AHEAD * UNIT * (1.01 * f64::from(range) + 4.0 * (largest + cell));
-        // Past the overlap of walls that meet, and so much that a beam which keeps clear of a
-        // wall's ends by it has a distance to that wall with an error of an eighth of its length.
-        // A wall that begins at another one's end, and stands behind it, may stick out by a joint;
-        // after two more it has gone back behind it (`shade`).
-        let slack = 4.0 * ahead + 3.0 * joint;
-        Self { joint, slack, largest }
+        // So much that a beam which keeps clear of a wall's ends by it has a distance to that wall
+        // with an error of an eighth of its length; and past what of a wall sticks out before another
+        // one, at whose end it begins to stand behind it, where they meet at 30° or more (`shade`).
+        let slack = 4.0 * ahead + 1.2 * joint;
+        Self { joint, ahead, slack, largest }
     }
 }
 

@@ -11,15 +11,11 @@
 
 use super::candidate::Candidate;
 use super::cone::{Cone, free_ends};
-use super::rounding::MOST_ERROR;
-use crate::world::shape::{Point, cross, dot, minus};
+use super::rounding::{Limits, MOST_ERROR};
+use crate::world::shape::{Point, cross, dot, length, minus};
 
 /// Most walls looked at; places are bits of a word.
 const MOST: usize = u64::BITS as usize;
-
-/// The sine of the least angle between a wall and the one that it begins at and stands behind: so
-/// much that half the slack outweighs what rounding does to the distances of both.
-const LEAST_SINE: f64 = 0.5;
 
 impl Cone<'_> {
     /// Leaves out what is in the shade, but for walls that are needed, by their place in the world:
@@ -105,8 +101,15 @@ impl Cone<'_> {
         let is_behind = |end: usize| depths[end] >= spare;
         let begins_at_wall = |end: usize| {
             let joint = shaded.shape.ends[end];
-            let is_met = wall.shape.ends.iter().any(|other| self.is_joint(*other, joint));
-            is_met && depths[1 - end] >= LEAST_SINE * shaded.shape.length
+            let mut met = wall.shape.ends.iter().filter(|other| self.is_joint(**other, joint));
+            // It may stick out before the wall, as both are lengthened. Where a beam meets it that
+            // passes the wall's end with the slack to spare, it must be as far behind as rounding asks.
+            let Limits { ahead, slack, .. } = *self.limits;
+            let sine = (depths[1 - end] - depths[end]) / shaded.shape.length;
+            met.any(|other| {
+                let way = slack - length(minus(*other, joint));
+                way > 0.0 && depths[end] + way * sine >= 2.0 * ahead
+            })
         };
         (is_behind(0) && is_behind(1)) || begins_at_wall(0) || begins_at_wall(1)
     }
@@ -121,7 +124,7 @@ impl Cone<'_> {
         // From one corner to one end the cross product is largest and smallest, since it is linear
         // in either. A line passes the point at the product divided by its length.
         let spare =
-            0.4 * self.limits.slack * wall.distance - wall.rounding.aside * self.farthest(point);
+            0.6 * self.limits.slack * wall.distance - wall.rounding.aside * self.farthest(point);
         let (mut is_left, mut is_right) = (true, true);
         for corner in self.corners {
             for end in wall.shape.ends {
