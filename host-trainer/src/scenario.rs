@@ -405,6 +405,9 @@ pub struct WorldsSpec {
     pub rooms: u32,
     /// How many with a field of thin cylinders like BARN's.
     pub barn_like: u32,
+    /// How many with thin walls that make passages and dead ends.
+    #[serde(default, skip_serializing_if = "is_zero_count")]
+    pub partitions: u32,
     /// Shortest and longest side, metres.
     pub side: [f32; 2],
     /// Generations after which a new world takes the place of an old one, each place in its turn;
@@ -424,6 +427,7 @@ impl WorldsSpec {
         pillars: 0,
         rooms: 0,
         barn_like: 0,
+        partitions: 0,
         side: [8.0, 16.0],
         renew_every: 0,
         held_out: 0,
@@ -433,8 +437,8 @@ impl WorldsSpec {
     pub const MOST: u32 = 64;
 
     /// How many of each kind, in the order of [`generate::Kind::ALL`].
-    pub fn counts(&self) -> [u32; 4] {
-        [self.boxes, self.pillars, self.rooms, self.barn_like]
+    pub fn counts(&self) -> [u32; generate::Kind::ALL.len()] {
+        [self.boxes, self.pillars, self.rooms, self.barn_like, self.partitions]
     }
 
     /// How many worlds there are to train in at a time.

@@ -44,11 +44,14 @@ pub enum Kind {
     /// A field of thin cylinders between start and goal, grown by a cellular automaton like
     /// the worlds of the BARN benchmark.
     BarnLike,
+    /// Thin straight walls of 1 to 4 m, many of which begin at a wall of the room.
+    Partitions,
 }
 
 impl Kind {
     /// Every kind, in the order they are listed to people.
-    pub const ALL: [Self; 4] = [Self::Boxes, Self::Pillars, Self::Rooms, Self::BarnLike];
+    pub const ALL: [Self; 5] =
+        [Self::Boxes, Self::Pillars, Self::Rooms, Self::BarnLike, Self::Partitions];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
@@ -57,6 +60,7 @@ impl Kind {
             Self::Pillars => "pillars",
             Self::Rooms => "rooms",
             Self::BarnLike => "barn-like",
+            Self::Partitions => "partitions",
         }
     }
 
@@ -66,6 +70,7 @@ impl Kind {
             Self::Boxes => 0.12,
             Self::Pillars | Self::Rooms => 0.06,
             Self::BarnLike => 0.28,
+            Self::Partitions => 0.08,
         }
     }
 
@@ -81,6 +86,8 @@ impl Kind {
             Self::Rooms => (1.2 / area).sqrt(),
             // Nearly every denser field blocks the way.
             Self::BarnLike => 0.3,
+            // Of 0.8 m² and four walls each.
+            Self::Partitions => 50.0 / area,
         }
     }
 
@@ -88,6 +95,7 @@ impl Kind {
     pub fn densities(self) -> [f32; 2] {
         match self {
             Self::Boxes | Self::Pillars => [0.0, 0.4],
+            Self::Partitions => [0.0, 0.3],
             Self::Rooms => [0.01, 0.08],
             Self::BarnLike => [0.1, 0.35],
         }
@@ -223,6 +231,7 @@ impl Recipe {
             Kind::Pillars => scatter::pillars(&mut scenario, self),
             Kind::Rooms => rooms::build(&mut scenario, self),
             Kind::BarnLike => barn::grow(&mut scenario, self)?,
+            Kind::Partitions => scatter::partitions(&mut scenario, self),
         }
         Ok(scenario)
     }
@@ -313,7 +322,13 @@ mod tests {
 
     #[test]
     fn the_solid_share_is_near_the_density_asked_for() {
-        for (kind, density) in [(Kind::Boxes, 0.05), (Kind::Boxes, 0.15), (Kind::Pillars, 0.05)] {
+        let cases = [
+            (Kind::Boxes, 0.05),
+            (Kind::Boxes, 0.15),
+            (Kind::Pillars, 0.05),
+            (Kind::Partitions, 0.08),
+        ];
+        for (kind, density) in cases {
             let recipe = Recipe { kind, seed: RunSeed(4), size: [20.0, 20.0], density };
             let world = recipe.scenario().unwrap().world;
             let boxes: f32 = world.boxes.iter().map(|[x0, y0, x1, y1]| (x1 - x0) * (y1 - y0)).sum();
@@ -348,7 +363,7 @@ mod tests {
         );
         assert_eq!(
             "box".parse::<Kind>().unwrap_err(),
-            "no kind `box`, expected boxes, pillars, rooms or barn-like"
+            "no kind `box`, expected boxes, pillars, rooms, barn-like or partitions"
         );
     }
 
@@ -380,5 +395,7 @@ mod tests {
         let recipe = Recipe { seed: RunSeed(2), ..recipe };
         let rooms = Recipe { kind: Kind::Rooms, ..recipe };
         insta::assert_snapshot!("rooms", rooms.toml().unwrap());
+        let partitions = Recipe { kind: Kind::Partitions, ..recipe };
+        insta::assert_snapshot!("partitions", partitions.toml().unwrap());
     }
 }

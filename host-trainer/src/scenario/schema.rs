@@ -315,6 +315,8 @@ impl Record for WorldsSpec {
         v.value("pillars", &mut self.pillars, count, "worlds with round pillars");
         v.value("rooms", &mut self.rooms, count, "worlds with rooms and doors");
         v.value("barn_like", &mut self.barn_like, count, "fields of cylinders, like BARN's");
+        let about = "worlds with thin walls that make dead ends; none if left out";
+        v.value("partitions", &mut self.partitions, UnlessDefault(count), about);
         v.value("side_m", &mut self.side, shapes::Sides, "[shortest, longest] side of a world");
         let generations = UnlessDefault(Whole { low: 0, high: *TrainingSpec::GENERATIONS.end() });
         let about = "generations after which one is replaced; none is if left out";

@@ -20,7 +20,7 @@ pub(super) struct GenerateArgs {
     #[arg(long)]
     seed: RunSeed,
 
-    /// What stands in it: boxes, pillars, rooms or barn-like
+    /// What stands in it: boxes, pillars, rooms, barn-like or partitions
     #[arg(long, default_value_t = Kind::Boxes, value_name = "KIND")]
     kind: Kind,
 

@@ -3,6 +3,7 @@
 use super::free_space::FreeSpace;
 use super::{Recipe, round};
 use crate::scenario::{Circle, Scenario};
+use crate::seed::Stream;
 
 /// Draws in a row that may fail to fit before the world counts as full.
 const TRIES: u32 = 60;
@@ -10,15 +11,58 @@ const TRIES: u32 = 60;
 /// Scatters boxes.
 pub(super) fn boxes(scenario: &mut Scenario, recipe: &Recipe) {
     let [width, height] = scenario.world.bounds.max;
+    let largest = 2_f32.min(width.min(height) / 4.0);
+    rectangles(scenario, recipe, |random| {
+        let [w, h] = [(); 2].map(|()| round(random.within(0.5, largest)).max(0.5));
+        let at = |size: f32, random: &mut Stream| round(random.within(0.0, size));
+        let [x, y] = [at(width - w, random), at(height - h, random)];
+        [x, y, w, h]
+    });
+    scenario.description = format!("{} random boxes", scenario.world.boxes.len());
+}
+
+/// Thinnest and thickest partition, metres.
+const THICKNESS: [f32; 2] = [0.1, 0.6];
+
+/// Shortest and longest partition, metres; the longest leaves a way in a small room.
+const LENGTH: [f32; 2] = [1.0, 4.0];
+
+/// Share of partitions that begin at a wall of the room.
+const AT_WALL: f32 = 0.4;
+
+/// Scatters thin walls along either side of the room.
+pub(super) fn partitions(scenario: &mut Scenario, recipe: &Recipe) {
+    let size = scenario.world.bounds.max;
+    let longest = LENGTH[1].min(0.4 * size[0].min(size[1]));
+    rectangles(scenario, recipe, |random| {
+        let along = random.index(2);
+        let sides = [random.within(LENGTH[0], longest), random.within(THICKNESS[0], THICKNESS[1])];
+        let [w, h] = [sides[along], sides[1 - along]].map(round);
+        let free = [size[0] - w, size[1] - h];
+        let mut at = free.map(|free| random.within(0.0, free));
+        if random.chance(AT_WALL) {
+            at[along] = [0.0, free[along]][random.index(2)];
+        }
+        let [x, y] = at.map(round);
+        [x, y, w, h]
+    });
+    scenario.description = format!("{} random partitions", scenario.world.boxes.len());
+}
+
+/// Places upright rectangles, drawn as a corner and two sides, until the density is reached or no more
+/// fit.
+fn rectangles(
+    scenario: &mut Scenario,
+    recipe: &Recipe,
+    mut draw: impl FnMut(&mut Stream) -> [f32; 4],
+) {
+    let [width, height] = scenario.world.bounds.max;
     let mut random = recipe.stream(0);
     let mut space = FreeSpace::new([width, height], &scenario.vehicle);
     let mut left = recipe.density * width * height;
     let mut misses = 0;
-    let largest = 2_f32.min(width.min(height) / 4.0);
     while misses < TRIES && left > 0.0 {
-        let [w, h] = [(); 2].map(|()| round(random.within(0.5, largest)).max(0.5));
-        let [x0, y0] =
-            [round(random.within(0.0, width - w)), round(random.within(0.0, height - h))];
+        let [x0, y0, w, h] = draw(&mut random);
         let [x1, y1] = [round(x0 + w), round(y0 + h)];
         let outside = |low: f32, value: f32, high: f32| (low - value).max(value - high).max(0.0);
         let distance = |[x, y]: [f32; 2]| libm::hypotf(outside(x0, x, x1), outside(y0, y, y1));
@@ -31,7 +75,6 @@ pub(super) fn boxes(scenario: &mut Scenario, recipe: &Recipe) {
             misses += 1;
         }
     }
-    scenario.description = format!("{} random boxes", scenario.world.boxes.len());
 }
 
 /// Scatters pillars.
