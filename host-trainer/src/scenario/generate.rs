@@ -86,7 +86,7 @@ impl Kind {
             Self::Rooms => (1.2 / area).sqrt(),
             // Nearly every denser field blocks the way.
             Self::BarnLike => 0.3,
-            // Of 0.8 m² and four walls each.
+            // Of 0.9 m² and four walls each.
             Self::Partitions => 50.0 / area,
         }
     }

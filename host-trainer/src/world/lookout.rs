@@ -74,7 +74,7 @@ pub struct Lookout {
 
 impl Lookout {
     /// Prepares for beams that reach `range` metres, and for bodies within the `largest`. Costs next
-    /// to nothing: cells are looked at where a car turns up.
+    /// to nothing: cells are looked at where a car turns up. Where obstacles are many they are coarse anyway.
     pub fn new(obstacles: Arc<Obstacles>, range: f32, largest: Body<f32>, cells: Cells) -> Self {
         let [low, high] = obstacles.bounds();
         let cells = if Shelf::are_many(&obstacles) { Cells::Coarse } else { cells };

@@ -337,28 +337,33 @@ proptest! {
 #[test]
 fn a_beam_that_passes_a_corner_by_a_hair_meets_what_every_obstacle_says() {
     let mut random = random(5);
-    let places = [(0.0_f32, Cells::Fine), (30.0, Cells::Coarse), (600.0, Cells::Fine)];
-    for (far, cells) in places.into_iter().chain([(20_000.0, Cells::Fine)]) {
+    let places = [
+        (0.0_f32, Cells::Fine),
+        (30.0, Cells::Coarse),
+        (600.0, Cells::Fine),
+        (20_000.0, Cells::Fine),
+        (20_000.0, Cells::Coarse),
+    ];
+    for (far, cells) in places {
         let overlap = 1e-5_f32.max(8.0 * f32::EPSILON * far);
         for crowded in [false, true] {
             let mut scene =
                 Scene { stream: crate::worlds::random(9), size: 6.0, offset: (far, -0.7 * far) };
             let mut walls = Vec::new();
             let mut corners = Vec::new();
-            for (corner, degrees) in
-                [(90.0_f32, 0.0_f32), (90.0, 25.0), (40.0, 10.0), (140.0, 60.0)]
-                    .into_iter()
-                    .cycle()
-                    .take(12)
-            {
+            for corner in [90.0_f32, 90.0, 40.0, 140.0].into_iter().cycle().take(12) {
                 let (x, y) = scene.place();
+                let degrees = random.within(0.0, 360.0);
                 let at = |degrees: f32, length: f32| {
                     let (sin, cos) = libm::sincosf(degrees.to_radians());
                     (x + length * cos, y + length * sin)
                 };
-                let outline = [(x, y), at(degrees, 0.9), at(degrees + corner, 0.7)];
-                scene.outline(&outline, &mut walls);
-                corners.extend(outline);
+                // Two that share a corner, and the line of a side.
+                for (side, other) in [(degrees, corner), (degrees + 180.0, -corner)] {
+                    let outline = [(x, y), at(side, 0.9), at(side + other, 0.7)];
+                    scene.outline(&outline, &mut walls);
+                    corners.extend(outline);
+                }
             }
             if crowded {
                 walls.extend(scene.posts());

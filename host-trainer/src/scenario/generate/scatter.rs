@@ -24,8 +24,11 @@ pub(super) fn boxes(scenario: &mut Scenario, recipe: &Recipe) {
 /// Thinnest and thickest partition, metres.
 const THICKNESS: [f32; 2] = [0.1, 0.6];
 
-/// Shortest and longest partition, metres; the longest leaves a way in a small room.
+/// Shortest and longest partition, metres.
 const LENGTH: [f32; 2] = [1.0, 4.0];
+
+/// Longest partition, as a share of the room's shorter side, so that a small one keeps a way.
+const LONGEST_SHARE: f32 = 0.4;
 
 /// Share of partitions that begin at a wall of the room.
 const AT_WALL: f32 = 0.4;
@@ -33,7 +36,7 @@ const AT_WALL: f32 = 0.4;
 /// Scatters thin walls along either side of the room.
 pub(super) fn partitions(scenario: &mut Scenario, recipe: &Recipe) {
     let size = scenario.world.bounds.max;
-    let longest = LENGTH[1].min(0.4 * size[0].min(size[1]));
+    let longest = LENGTH[1].min(LONGEST_SHARE * size[0].min(size[1]));
     rectangles(scenario, recipe, |random| {
         let along = random.index(2);
         let sides = [random.within(LENGTH[0], longest), random.within(THICKNESS[0], THICKNESS[1])];

@@ -30,8 +30,8 @@ const MOST_RANGES: f64 = 4.0;
 pub(super) struct Limits {
     /// Ends of walls closer than this meet, metres.
     pub(super) joint: f64,
-    /// The computed distance of an obstacle that may hide others, or of one not larger than those, is off
-    /// by at most this / sin(angle), metres.
+    /// The computed distance of an obstacle no larger than `largest`, within range, is off by at most
+    /// this / sin(angle), metres.
     pub(super) ahead: f64,
     /// A beam that passes a wall's end within this is not to be trusted, metres.
     pub(super) slack: f64,
@@ -49,8 +49,9 @@ impl Limits {
         let largest = largest.min(MOST_RANGES * f64::from(range));
         let ahead = AHEAD * UNIT * (1.01 * f64::from(range) + 4.0 * (largest + cell));
         // So much that a beam which keeps clear of a wall's ends by it has a distance to that wall
-        // with an error of an eighth of its length; and past what of a wall sticks out before another
-        // one, at whose end it begins to stand behind it, where they meet at 30° or more (`shade`).
+        // with an error of an eighth of its length. More than a joint, on which `cone`, `discs` and
+        // `shade` rely; and past what of a wall sticks out before another one, at whose end it begins to
+        // stand behind it, where they meet at 30° or more.
         let slack = 4.0 * ahead + 1.2 * joint;
         Self { joint, ahead, slack, largest }
     }

@@ -102,14 +102,13 @@ impl Cone<'_> {
         let begins_at_wall = |end: usize| {
             let joint = shaded.shape.ends[end];
             let mut met = wall.shape.ends.iter().filter(|other| self.is_joint(**other, joint));
-            // It may stick out before the wall, as both are lengthened. Where a beam meets it that
-            // passes the wall's end with the slack to spare, it must be as far behind as rounding asks.
+            // It may stick out before the wall, as both are lengthened, but must go on behind it. A beam
+            // that passes the wall's end with the slack to spare meets it so far behind that rounding
+            // does not matter: the flatter the beam, the farther along and the deeper.
             let Limits { ahead, slack, .. } = *self.limits;
             let sine = (depths[1 - end] - depths[end]) / shaded.shape.length;
-            met.any(|other| {
-                let way = slack - length(minus(*other, joint));
-                way > 0.0 && depths[end] + way * sine >= 2.0 * ahead
-            })
+            let depth = |other: &Point| depths[end] + (slack - length(minus(*other, joint))) * sine;
+            sine > 0.0 && met.any(|other| depth(other) >= 2.0 * ahead)
         };
         (is_behind(0) && is_behind(1)) || begins_at_wall(0) || begins_at_wall(1)
     }
