@@ -382,8 +382,6 @@ impl Shelf {
             None => Naming::Own(Vec::new()),
             Some(large) => large.legends.naming(grid.tile(cell as usize)),
         };
-        // What is seen in one bin is mostly seen in the next one too.
-        let mut last = None;
         // Returns whether there is a word that names all of these places.
         let mut write = |numbers: &[AtomicU16], at: u32, places: &[u32], flags: Word| {
             let named = |(n, place): (u32, &u32)| {
@@ -397,11 +395,7 @@ impl Shelf {
                 None
             };
             // The first word says that nothing is known.
-            let number = word.and_then(|word| match last {
-                Some((same, number)) if same == word => Some(number),
-                _ => self.words.number(word),
-            });
-            last = word.zip(number);
+            let number = word.and_then(|word| self.words.number(word));
             numbers[at as usize].store(number.unwrap_or(0), Ordering::Release);
             number.is_some()
         };
