@@ -82,7 +82,16 @@ impl BlobFile {
     /// Bad input when nothing is there, or naming the reason why it is no blob; input/output
     /// when it cannot be read.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        let file = FileBytes::read("CHAMPION", path)?;
+        Self::read_as("CHAMPION", path)
+    }
+
+    /// The same for another `argument` of the command line.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read`], naming that argument.
+    pub fn read_as(argument: &str, path: &Path) -> Result<Self, Failure> {
+        let file = FileBytes::read(argument, path)?;
         let refused = |cause: BlobError| refusal(file.path(), &cause);
         Blob::parse(file.bytes()).map_err(refused)?;
         Ok(Self(file))

@@ -25,7 +25,7 @@ use ga::{Ga, GaSpec, Initial, Mutation, Outlook, Selection, SettingError};
 pub use cost::{Cost, best_index, ranking};
 pub use novelty::{Novelty, NoveltySpec};
 pub use population::Population;
-pub use state::{RestoreError, State};
+pub use state::{GenomeError, RestoreError, State};
 
 /// Proposes genomes, then learns from their costs.
 pub trait Optimizer: Send {
@@ -85,13 +85,30 @@ impl SearchSpace {
         if found != expected {
             return Err(RestoreError::Population { found, expected });
         }
-        let bound = self.bound;
-        match saved.genes().iter().position(|gene| !(-bound..=bound).contains(gene)) {
+        match self.beyond_bound(saved.genes()) {
             None => Ok(()),
             Some(place) => {
                 let (individual, gene) = (place / self.genome_len, place % self.genome_len);
-                Err(RestoreError::Gene { individual, gene, found: saved.genes()[place], bound })
+                let (found, bound) = (saved.genes()[place], self.bound);
+                Err(RestoreError::Gene { individual, gene, found, bound })
             }
+        }
+    }
+
+    /// The first of these genes that is out of bounds, or `NaN`.
+    fn beyond_bound(&self, genes: &[f32]) -> Option<usize> {
+        genes.iter().position(|gene| !(-self.bound..=self.bound).contains(gene))
+    }
+
+    /// Refuses a genome that is not of this space.
+    fn admit_genome(&self, genome: &[f32]) -> Result<(), GenomeError> {
+        let (found, expected) = (genome.len(), self.genome_len);
+        if found != expected {
+            return Err(GenomeError::Length { found, expected });
+        }
+        match self.beyond_bound(genome) {
+            None => Ok(()),
+            Some(gene) => Err(GenomeError::Gene { gene, found: genome[gene], bound: self.bound }),
         }
     }
 }

@@ -3,6 +3,7 @@
 //! | file | holds | written |
 //! | --- | --- | --- |
 //! | `manifest.toml` | what the run is: [`Manifest`] | once, first |
+//! | `from.blob` | the champion that it began with, where it did not begin with random networks | once, second |
 //! | `metrics.csv` | one row per generation: [`Metrics`] | row by row |
 //! | `timing.csv` | how fast each generation was; the only file that differs between equal runs | row by row |
 //! | `checkpoint-a.bin`, `checkpoint-b.bin` | state to resume from: [`crate::checkpoint`] | in turn |
@@ -38,6 +39,8 @@ impl RunFolder {
     pub const MANIFEST: &'static str = "manifest.toml";
     /// What a reproduction is, in its place.
     pub const REPRODUCTION: &'static str = "reproduction.toml";
+    /// The champion that the run began with.
+    pub const FROM: &'static str = "from.blob";
     /// One row per generation.
     pub const METRICS: &'static str = "metrics.csv";
     /// Wall-clock speed per generation.

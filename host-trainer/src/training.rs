@@ -59,14 +59,14 @@ pub struct Snapshot {
     kept: Vec<Pair>,
 }
 
-/// What a run is: SHA-256 of its seed and its scenario, whose number of generations counts only
-/// where it [matters](depends_on_generations).
+/// What a run is: SHA-256 of its seed, of its scenario, whose number of generations counts only
+/// where it [matters](depends_on_generations), of the worlds it begins in, and of the genome it begins with.
 type RunId = [u8; 32];
 
 /// Why a saved state is not gone on from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ResumeError {
-    /// It was saved under another scenario or another seed.
+    /// It was saved under another scenario or another seed, or began with another genome.
     OtherRun,
     /// The search refuses its part.
     Search(RestoreError),
@@ -82,7 +82,7 @@ pub enum ResumeError {
 impl fmt::Display for ResumeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::OtherRun => f.write_str("it was saved under another scenario or seed"),
+            Self::OtherRun => f.write_str("it was saved under another scenario, seed or beginning"),
             Self::Search(error) => error.fmt(f),
             Self::History { found, expected } => {
                 write!(f, "the history has {found} generations, expected {expected}")
@@ -121,6 +121,20 @@ impl<'a> Training<'a> {
     /// Settings of the search that make no sense, a world in which no pair is found, or random
     /// worlds without a way through.
     pub fn new(problem: &'a Problem, seed: RunSeed) -> Result<Self, Failure> {
+        Self::begin(problem, seed, None)
+    }
+
+    /// The same; with a genome, beginning with that and mutants of it instead of with random genomes.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`]; a genome that is not one of the problem's network, or with a weight beyond
+    /// the bound.
+    pub fn begin(
+        problem: &'a Problem,
+        seed: RunSeed,
+        genome: Option<&[f32]>,
+    ) -> Result<Self, Failure> {
         let spec = &problem.scenario.training;
         let space = SearchSpace {
             population: spec.population as usize,
@@ -131,6 +145,12 @@ impl<'a> Training<'a> {
         let outlook = Outlook { generations: spec.generations, scales };
         let search = Ga::with_outlook(space, spec.ga, outlook, seed)
             .map_err(|error| Failure::bad_input(format!("training: {error}")))?;
+        let search = match genome {
+            None => search,
+            Some(genome) => search.beginning_with(genome).map_err(|error| {
+                Failure::bad_input(format!("training: the genome to begin with: {error}"))
+            })?,
+        };
         let test_drives = TestDrives::new(problem, seed, 0)?;
         let validation = match problem.scenario.pairs.source {
             PairSource::Drawn { .. } if !holds_out(spec) => {
@@ -140,7 +160,7 @@ impl<'a> Training<'a> {
         };
         let validation = validation.map_err(|none| no_pair(problem, none))?;
         let search: Box<dyn Optimizer> = Box::new(search);
-        let run = run_id(&problem.scenario, test_drives.scenarios(), seed);
+        let run = run_id(&problem.scenario, test_drives.scenarios(), seed, genome);
         let (history, kept) = (Vec::new(), Vec::new());
         let coordinates = 2 * count_of_pairs(&problem.scenario) as usize;
         let novelty = spec.novelty.map(|novelty| Novelty::new(novelty, coordinates, seed));
@@ -433,6 +453,7 @@ fn run_id<'a>(
     scenario: &Scenario,
     made: impl Iterator<Item = &'a Scenario>,
     seed: RunSeed,
+    genome: Option<&[f32]>,
 ) -> RunId {
     let mut scenario = scenario.clone();
     if !depends_on_generations(&scenario) {
@@ -441,7 +462,9 @@ fn run_id<'a>(
     let scenario = fingerprint::scenario(&scenario);
     let own = Sha256::new().chain_update(seed.0.to_le_bytes()).chain_update(scenario);
     // Another version may make other worlds of the same seed.
-    made.map(fingerprint::scenario).fold(own, Sha256::chain_update).finalize().into()
+    let of_worlds = made.map(fingerprint::scenario).fold(own, Sha256::chain_update);
+    let weights = genome.into_iter().flatten().map(|weight| weight.to_le_bytes());
+    weights.fold(of_worlds, Sha256::chain_update).finalize().into()
 }
 
 /// Whether another number of generations makes another run from its second generation on: some

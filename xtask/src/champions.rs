@@ -22,16 +22,22 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let chosen = if options.operands.is_empty() { &all } else { &options.operands };
     process::run(process::cargo().args(["build", "--release", "--package", "host-trainer"]))?;
     let mut different = Vec::new();
-    for name in chosen {
-        let trained = train(&folder.join(format!("{name}.toml")), name)?;
-        let shipped = folder.join(format!("{name}.blob"));
-        if std::env::var_os("EVOSTEER_BLESS").is_some() {
-            fs::write(&shipped, &trained).map_err(|error| failed("write", &shipped, &error))?;
-            println!("{name}: written, {} bytes", trained.len());
-        } else if read(&shipped)? == trained {
-            println!("{name}: the same {} bytes", trained.len());
-        } else {
-            different.push(name.as_str());
+    for champion in chosen {
+        let text = provenance(&folder, champion)?;
+        let stage = stage(&arguments(&text, champion)?)?;
+        for name in stage.into_iter().chain([champion.as_str()]) {
+            let trained = train(&provenance(&folder, name)?, name)?;
+            let shipped = folder.join(format!("{name}.blob"));
+            if std::env::var_os("EVOSTEER_BLESS").is_some() {
+                fs::write(&shipped, &trained).map_err(|error| failed("write", &shipped, &error))?;
+                println!("{name}: written, {} bytes", trained.len());
+            } else if read(&shipped)? == trained {
+                println!("{name}: the same {} bytes", trained.len());
+            } else {
+                println!("{name}: not the {} bytes that are shipped", trained.len());
+                different.push(champion.as_str());
+                break;
+            }
         }
     }
     if different.is_empty() {
@@ -56,15 +62,29 @@ fn names(folder: &Path) -> Result<Vec<String>, Failure> {
     Ok(names)
 }
 
-/// Trains as a provenance file says, and returns the champion's bytes.
-fn train(provenance: &Path, name: &str) -> Result<Vec<u8>, Failure> {
-    let text = String::from_utf8_lossy(&read(provenance)?).into_owned();
-    let words = arguments(&text).ok_or_else(|| {
-        Failure::failed(format!(
-            "{}: expected a line command = \"evosteer train …\"",
-            provenance.display()
-        ))
-    })?;
+/// The first stage that a training begins with, below the folder, without its ending.
+fn stage<'a>(words: &[&'a str]) -> Result<Option<&'a str>, Failure> {
+    let Some(option) = words.iter().position(|word| word.starts_with("--from")) else {
+        return Ok(None);
+    };
+    let named = words.get(option + 1).and_then(|word| word.strip_prefix("champions/"));
+    let stage = named.and_then(|name| name.strip_suffix(".blob"));
+    match stage.filter(|name| words[option] == "--from" && name.starts_with("stages/")) {
+        Some(stage) => Ok(Some(stage)),
+        None => Err(Failure::failed(format!(
+            "found {}, expected --from champions/stages/….blob",
+            words[option..].join(" ")
+        ))),
+    }
+}
+
+fn provenance(folder: &Path, name: &str) -> Result<String, Failure> {
+    Ok(String::from_utf8_lossy(&read(&folder.join(format!("{name}.toml")))?).into_owned())
+}
+
+/// Trains as a provenance says, and returns the champion's bytes.
+fn train(provenance: &str, name: &str) -> Result<Vec<u8>, Failure> {
+    let words = arguments(provenance, name)?;
     let run = process::root().join("target/champions").join(name);
     match fs::remove_dir_all(&run) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
@@ -80,9 +100,14 @@ fn train(provenance: &Path, name: &str) -> Result<Vec<u8>, Failure> {
 }
 
 /// The words after `evosteer` in the line that says how a champion was made.
-fn arguments(provenance: &str) -> Option<Vec<&str>> {
-    let line = provenance.lines().find_map(|line| line.strip_prefix("command = \"evosteer "))?;
-    Some(line.strip_suffix('"')?.split_whitespace().collect())
+fn arguments<'a>(provenance: &'a str, name: &str) -> Result<Vec<&'a str>, Failure> {
+    let line = provenance.lines().find_map(|line| line.strip_prefix("command = \"evosteer "));
+    let line = line.and_then(|line| line.strip_suffix('"')).ok_or_else(|| {
+        Failure::failed(format!(
+            "champions/{name}.toml: expected a line command = \"evosteer train …\""
+        ))
+    })?;
+    Ok(line.split_whitespace().collect())
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
@@ -103,17 +128,38 @@ mod tests {
         let names = names(&folder).expect("a folder");
         assert!(!names.is_empty());
         for name in names {
-            let text = fs::read_to_string(folder.join(format!("{name}.toml"))).expect(&name);
-            let words = arguments(&text).expect(&name);
-            assert_eq!(words[0], "train", "{name}");
-            assert!(!words.contains(&"--out"), "{name}: the folder is chosen by the task");
+            let text = provenance(&folder, &name).expect(&name);
+            let words = arguments(&text, &name).expect(&name);
+            let stage =
+                stage(&words).expect(&name).map(|name| provenance(&folder, name).expect(name));
+            for text in [Some(text.clone()), stage].into_iter().flatten() {
+                let words = arguments(&text, &name).expect(&name);
+                assert_eq!(words[0], "train", "{name}");
+                assert!(!words.contains(&"--out"), "{name}: the folder is chosen by the task");
+            }
+        }
+    }
+
+    #[test]
+    fn a_training_begins_with_a_stage_or_with_nothing() {
+        let of = |line: &str| {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            stage(&words).map(|stage| stage.map(str::to_owned)).map_err(|error| error.to_string())
+        };
+        assert_eq!(of("train open --seed 1"), Ok(None));
+        let begun = "train open --from champions/stages/a-1.blob --seed 2";
+        assert_eq!(of(begun), Ok(Some("stages/a-1".to_owned())));
+        for other in ["--from champions/open.blob", "--from runs/a", "--from", "--from=a.blob"] {
+            let said = format!("found {other}, expected --from champions/stages/….blob");
+            assert_eq!(of(&format!("train open {other}")), Err(said));
         }
     }
 
     #[test]
     fn a_file_without_a_command_is_not_guessed_at() {
-        assert_eq!(arguments("command = \"evosteer train a\""), Some(vec!["train", "a"]));
-        assert_eq!(arguments("seed = 1\ncommand = \"rm x\"\n"), None);
-        assert_eq!(arguments("command = \"evosteer train a"), None);
+        let words = |text| arguments(text, "a").ok();
+        assert_eq!(words("command = \"evosteer train a\""), Some(vec!["train", "a"]));
+        assert_eq!(words("seed = 1\ncommand = \"rm x\"\n"), None);
+        assert_eq!(words("command = \"evosteer train a"), None);
     }
 }

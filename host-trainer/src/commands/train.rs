@@ -1,8 +1,10 @@
 //! `evosteer train`: the main job, from a scenario to a champion and its report.
 
+mod beginning;
 mod finish;
 mod worlds;
 
+use beginning::Beginning;
 use finish::Finished;
 
 use super::advice::{counted, in_shell, this_program};
@@ -38,12 +40,17 @@ pub struct TrainArgs {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
+    /// Begin with a champion and mutants of it instead of with random networks: the scene of a
+    /// shipped one, a weight blob, or a run folder
+    #[arg(long, value_name = "CHAMPION")]
+    from: Option<PathBuf>,
+
     /// Go on with the run in this folder, perhaps to more --generations; its scenario, seed and
     /// population stay
     #[arg(
         long,
         value_name = "DIR",
-        conflicts_with_all = ["scenario", "out", "seed", "population", "preset", "set"]
+        conflicts_with_all = ["scenario", "out", "from", "seed", "population", "preset", "set"]
     )]
     resume: Option<PathBuf>,
 
@@ -95,6 +102,7 @@ struct Run {
     folder: RunFolder,
     seed: RunSeed,
     problem: Problem,
+    beginning: Option<Beginning>,
     checkpoints: Checkpoints,
     snapshot: Option<Snapshot>,
 }
@@ -109,7 +117,7 @@ pub fn run(args: &TrainArgs, stop: &StopFlag, output: &mut Output) -> Result<(),
     let pool = args.threads.pool()?;
     let run = match &args.resume {
         Some(folder) => Run::resume(folder, args.generations, output)?,
-        None => Run::begin(args)?,
+        None => Run::begin(args, output)?,
     };
     let go_on = format!("{} train --resume {}", this_program(), in_shell(run.folder.path()));
     let save_every = Duration::from_secs(args.checkpoint_every.into());
@@ -127,7 +135,7 @@ pub fn run(args: &TrainArgs, stop: &StopFlag, output: &mut Output) -> Result<(),
 }
 
 impl Run {
-    fn begin(args: &TrainArgs) -> Result<Self, Failure> {
+    fn begin(args: &TrainArgs, output: &mut Output) -> Result<Self, Failure> {
         let mut settings = args.options.settings();
         for (option, key, value) in [
             ("--generations", "training.generations", args.generations),
@@ -137,18 +145,27 @@ impl Run {
         }
         let problem = problem(&args.scenario, args.options.preset, &settings)?;
         // Everything that can be refused is, before a folder exists.
-        let training = Training::new(&problem, args.seed)?;
+        let beginning = args.from.as_deref().map(Beginning::read).transpose()?;
+        if let Some(beginning) = &beginning {
+            beginning.check(&problem, output)?;
+        }
+        let from = beginning.as_ref().map(|beginning| beginning.input().clone());
+        let genome = beginning.as_ref().map(Beginning::genome);
+        let training = Training::begin(&problem, args.seed, genome)?;
         can_draw(&problem, &args.scenario, &settings, args.seed)?;
         training.can_begin()?;
         let folder = match &args.out {
             Some(path) => RunFolder::create(path)?,
             None => RunFolder::choose(Path::new("runs"), &problem.scenario.name, args.seed.0)?,
         };
-        manifest(args.seed, &problem.scenario)?.write(&folder)?;
+        manifest(args.seed, &problem.scenario, from)?.write(&folder)?;
+        if let Some(beginning) = &beginning {
+            beginning.copy_to(&folder)?;
+        }
         worlds::write(&folder, &training, 0)?;
         drop(training);
         let (checkpoints, _) = Checkpoints::open::<Snapshot>(&folder)?;
-        Ok(Self { folder, seed: args.seed, problem, checkpoints, snapshot: None })
+        Ok(Self { folder, seed: args.seed, problem, beginning, checkpoints, snapshot: None })
     }
 
     fn resume(path: &Path, generations: Option<u32>, output: &mut Output) -> Result<Self, Failure> {
@@ -158,6 +175,8 @@ impl Run {
         for warning in loaded.iter().flat_map(|loaded| &loaded.warnings) {
             output.warning(warning);
         }
+        let from = manifest.from.clone();
+        let beginning = from.map(|from| Beginning::of_run(&folder, from)).transpose()?;
         if let Some(generations) = generations
             && generations != manifest.scenario.training.generations
         {
@@ -179,11 +198,12 @@ impl Run {
                 )));
             }
             manifest.scenario.training.generations = generations;
-            manifest = self::manifest(RunSeed(manifest.seed), &manifest.scenario)?;
+            manifest = self::manifest(RunSeed(manifest.seed), &manifest.scenario, manifest.from)?;
             manifest.write(&folder)?;
         }
         Ok(Self {
             folder,
+            beginning,
             seed: RunSeed(manifest.seed),
             problem: Problem::new(manifest.scenario)?,
             checkpoints,
@@ -192,8 +212,10 @@ impl Run {
     }
 
     fn go(self, save_every: Duration, stop: &StopFlag, output: &mut Output) -> Result<(), Failure> {
-        let Self { folder, seed, problem, mut checkpoints, snapshot } = self;
-        let mut training = Training::new(&problem, seed)?;
+        let Self { folder, seed, problem, beginning, mut checkpoints, snapshot } = self;
+        let from = beginning.as_ref().map(Beginning::input);
+        let genome = beginning.as_ref().map(Beginning::genome);
+        let mut training = Training::begin(&problem, seed, genome)?;
         let mut saved_generation = None;
         if let Some(snapshot) = snapshot {
             training.restore(snapshot).map_err(|error| {
@@ -244,7 +266,8 @@ impl Run {
         metrics.sync()?;
         save(&training)?;
         if training.is_over()
-            && finish::finish(&folder, &problem, seed, &training, stop, output)? == Finished::Whole
+            && finish::finish(&folder, &problem, seed, from, &training, stop, output)?
+                == Finished::Whole
         {
             return Ok(());
         }
@@ -258,12 +281,17 @@ impl Run {
     }
 }
 
-fn manifest(seed: RunSeed, scenario: &Scenario) -> Result<Manifest<Scenario>, Failure> {
+fn manifest(
+    seed: RunSeed,
+    scenario: &Scenario,
+    from: Option<Input>,
+) -> Result<Manifest<Scenario>, Failure> {
     let mut inputs = Vec::new();
     if let Some(map) = &scenario.world.map {
         inputs.push(Input::of_file(&map.yaml)?);
         let image = crate::map::image(&map.yaml)?;
         inputs.push(Input::of_file(&image)?);
     }
-    Manifest::new(seed.0, scenario.clone(), blob::VERSION, inputs)
+    let manifest = Manifest::new(seed.0, scenario.clone(), blob::VERSION, inputs)?;
+    Ok(Manifest { from, ..manifest })
 }

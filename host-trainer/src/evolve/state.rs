@@ -95,3 +95,37 @@ impl fmt::Display for RestoreError {
 }
 
 impl std::error::Error for RestoreError {}
+
+/// Why a search does not begin with a genome.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum GenomeError {
+    /// Another number of genes.
+    Length {
+        /// In the genome.
+        found: usize,
+        /// In this search.
+        expected: usize,
+    },
+    /// A gene outside the bounds, or `NaN`.
+    Gene {
+        /// Which gene.
+        gene: usize,
+        /// Its value.
+        found: f32,
+        /// Largest magnitude in this search.
+        bound: f32,
+    },
+}
+
+impl fmt::Display for GenomeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Length { found, expected } => write!(f, "{found} genes, expected {expected}"),
+            Self::Gene { gene, found, bound } => {
+                write!(f, "gene {gene} is {found}, expected at most {bound} in magnitude")
+            }
+        }
+    }
+}
+
+impl std::error::Error for GenomeError {}

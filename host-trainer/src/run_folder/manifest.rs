@@ -30,6 +30,10 @@ pub struct Manifest<S> {
     /// Files the scenario refers to, such as maps.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inputs: Vec<Input>,
+    /// The champion that the run began with, if any, as it was given; its copy is
+    /// [`RunFolder::FROM`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<Input>,
     /// The settings, with nothing left to default.
     pub scenario: S,
 }
@@ -91,6 +95,7 @@ impl<S: Serialize + DeserializeOwned> Manifest<S> {
                 blob,
             },
             inputs,
+            from: None,
             scenario,
         })
     }

@@ -1,5 +1,6 @@
 //! The program as its users meet it: the built binary, its files, its words and its exit codes.
 
+mod beginnings;
 mod bench;
 mod handles;
 mod help;

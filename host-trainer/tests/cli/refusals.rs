@@ -96,6 +96,10 @@ const COMMAND_LINES: &[&str] = &[
     "train open --population 1000000",
     "train open --set pairs.count=100000 --population 200",
     "train open --set pairs.min_distance_m=13",
+    "train open --from depot",
+    "train open --from run --preset robust --set network.recurrence=feedforward",
+    "train open --from run --set sensors.type_code=any",
+    "train open --from run --set training.weight_bound=0.01",
     "train --json=yes",
     "evaluate",
     "evaluate run",
@@ -137,6 +141,11 @@ const FILES: &[&str] = &[
     "train no_map.toml",
     "train bad_map.toml",
     "train zero_map.toml",
+    "train open --from nowhere",
+    "train open --from folder",
+    "train open --from manifest",
+    "train open --from short.blob",
+    "train --resume run --from run",
     "train open --out run",
     "train open --out champion.blob",
     "train --resume nowhere",
@@ -265,6 +274,9 @@ fn names_that_are_no_unicode_do_not_matter_to_files_and_are_refused_as_scenarios
     let mut train = bench.program(["train", "open", "--out"]);
     train.arg(odd).args(super::bench::TINY);
     assert_eq!(train.output().unwrap().status.code(), Some(0));
+    let mut again = bench.program(["train", "open", "--out=again", "--from"]);
+    again.arg(odd).args(super::bench::TINY);
+    assert_eq!(again.output().unwrap().status.code(), Some(0));
     let evaluate = |champion: &OsStr, scenario: &OsStr| {
         let words = [OsStr::new("evaluate"), champion, scenario, OsStr::new("--pairs=3")];
         bench.program(words).output().unwrap().status.code()

@@ -116,7 +116,7 @@ fn a_checkpoint_of_another_run_is_refused() {
         let done = bench.say(&format!("train --resume {other}-copy --generations 9")).ends_in(2);
         let why = format!(
             "error: the checkpoint in {other}-copy does not belong to this run: it was saved \
-             under another scenario or seed\n"
+             under another scenario, seed or beginning\n"
         );
         assert_eq!(done.stderr, why);
     }

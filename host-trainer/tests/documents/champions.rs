@@ -1,6 +1,7 @@
 //! What the files beside the shipped champions say is what their blobs hold and how they drive.
 
 use super::pages;
+use host_trainer::blob_file::BlobFile;
 use host_trainer::champion::shipped::{CHAMPIONS, Champion};
 use host_trainer::evaluation::Evaluation;
 use host_trainer::fingerprint;
@@ -16,9 +17,20 @@ const UNSEEN: (u32, RunSeed) = (1000, RunSeed(2));
 
 /// The line that says how a champion was made.
 fn command(champion: &Champion) -> &str {
-    let lines = champion.provenance.lines();
+    command_in(champion.provenance)
+}
+
+fn command_in(provenance: &str) -> &str {
+    let lines = provenance.lines();
     let mut lines = lines.filter_map(|line| line.strip_prefix("command = \"")?.strip_suffix('"'));
-    lines.next().unwrap_or_else(|| panic!("{}: no command", champion.scene))
+    lines.next().unwrap_or_else(|| panic!("no command: {provenance}"))
+}
+
+/// What champion a command begins with, below the repository.
+fn begins_with(command: &str) -> Option<&str> {
+    let mut words = command.split_whitespace();
+    words.find(|word| *word == "--from")?;
+    words.next()
 }
 
 /// Scenario and seed that a command trains with.
@@ -40,6 +52,7 @@ fn trained_with(command: &str) -> (Scenario, RunSeed) {
                 let key = format!("training.{}", &option[2..]);
                 settings.push(Setting::option(option, &key, value));
             }
+            "--from" => assert!(value.starts_with("champions/"), "{command}"),
             _ => panic!("{option} of {command} is not known here"),
         }
     }
@@ -63,24 +76,29 @@ fn figures(champion: &Champion) -> Evaluation {
     Evaluation::of(&problem, file.blob().weights(), &pairs, seed, &StopFlag::default()).unwrap()
 }
 
+/// By what command a blob was made, and what its header says.
+fn made(command: &str, file: &BlobFile) -> String {
+    let made = file.blob().header().provenance;
+    let [major, minor, patch] = made.tool;
+    format!(
+        "command = \"{command}\"\nevosteer = \"{major}.{minor}.{patch}\"\nseed = {}\n\
+         generation = {}\nsha256 = \"{}\"\n",
+        made.seed,
+        made.generation,
+        fingerprint::sha256(file.bytes())
+    )
+}
+
 /// What stands beside a champion.
 fn provenance(champion: &Champion) -> String {
     let Champion { scene, .. } = champion;
-    let file = champion.file();
-    let made = file.blob().header().provenance;
-    let [major, minor, patch] = made.tool;
     let drives = figures(champion);
-    let mut text = String::new();
+    let mut text = format!(
+        "# How champions/{scene}.blob was made, and how it drives on pairs that no training has seen.\n\
+         # `cargo xtask champions {scene}` trains it again and compares every byte.\n"
+    );
+    text += &made(command(champion), &champion.file());
     let mut line = |line: String| writeln!(text, "{line}").unwrap();
-    line(format!(
-        "# How champions/{scene}.blob was made, and how it drives on pairs that no training has seen."
-    ));
-    line(format!("# `cargo xtask champions {scene}` trains it again and compares every byte."));
-    line(format!("command = \"{}\"", command(champion)));
-    line(format!("evosteer = \"{major}.{minor}.{patch}\""));
-    line(format!("seed = {}", made.seed));
-    line(format!("generation = {}", made.generation));
-    line(format!("sha256 = \"{}\"", fingerprint::sha256(file.bytes())));
     line(format!("\n[unseen]\nscenario = \"{scene}\""));
     line(format!("step_limit = {}", step_limit(champion)));
     line(format!("pairs = {}", drives.pairs));
@@ -102,20 +120,49 @@ fn a_champions_file_says_what_its_blob_holds_and_how_it_drives() {
     }
 }
 
+/// What a shipped champion's training begins with lies there, with the command that makes it.
+#[test]
+fn the_first_stages_of_champions_are_what_their_files_say() {
+    let mut stages = Vec::new();
+    for champion in CHAMPIONS {
+        let Some(blob) = begins_with(command(champion)) else { continue };
+        let file = BlobFile::read(&pages::root().join(blob)).unwrap();
+        let page = blob.replace(".blob", ".toml");
+        let command = command_in(&pages::read(&page)).to_owned();
+        let scene = champion.scene;
+        let text = format!(
+            "# How {blob} was made, with which the training of champions/{scene}.blob begins.\n\
+             # `cargo xtask champions {scene}` trains both again and compares every byte.\n{}",
+            made(&command, &file)
+        );
+        pages::expect(&page, &text);
+        assert_made_by(&command, &file);
+        stages.push(page);
+    }
+    let folder = std::fs::read_dir(pages::root().join("champions/stages"));
+    assert_eq!(
+        folder.map_or(0, Iterator::count),
+        2 * stages.len(),
+        "a blob and its file for each of {stages:?}"
+    );
+}
+
 /// Training takes too long for a test; that nothing that decides it has changed does not.
 /// `cargo xtask champions` trains.
 #[test]
 fn the_recorded_command_means_the_settings_that_the_blob_was_trained_with() {
     for champion in CHAMPIONS {
-        let (scenario, seed) = trained_with(command(champion));
-        let file = champion.file();
-        let made = file.blob().header().provenance;
-        let digest = fingerprint::scenario(&scenario);
-        assert_eq!(made.scenario_hash, digest[..8], "{}: other settings", champion.scene);
-        assert_eq!(made.seed, seed.0, "{}", champion.scene);
-        assert!(made.generation < scenario.training.generations, "{}", champion.scene);
-        let [major, minor, patch] = made.tool;
-        let version = env!("CARGO_PKG_VERSION");
-        assert_eq!(format!("{major}.{minor}.{patch}"), version, "{}", champion.scene);
+        assert_made_by(command(champion), &champion.file());
     }
+}
+
+fn assert_made_by(command: &str, file: &BlobFile) {
+    let (scenario, seed) = trained_with(command);
+    let made = file.blob().header().provenance;
+    let digest = fingerprint::scenario(&scenario);
+    assert_eq!(made.scenario_hash, digest[..8], "{command}: other settings");
+    assert_eq!(made.seed, seed.0, "{command}");
+    assert!(made.generation < scenario.training.generations, "{command}");
+    let [major, minor, patch] = made.tool;
+    assert_eq!(format!("{major}.{minor}.{patch}"), env!("CARGO_PKG_VERSION"), "{command}");
 }

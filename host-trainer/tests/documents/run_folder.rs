@@ -12,11 +12,13 @@ fn every_file_of_a_run_folder_is_described() {
     let [a, b] = RunFolder::CHECKPOINTS;
     for file in [
         RunFolder::MANIFEST,
+        RunFolder::FROM,
         RunFolder::METRICS,
         RunFolder::TIMING,
         a,
         b,
         RunFolder::CHAMPION,
+        RunFolder::WORLDS,
         RunFolder::PLOTS,
         RunFolder::REPORT,
         RunFolder::LOCK,

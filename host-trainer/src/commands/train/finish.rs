@@ -11,6 +11,7 @@ use crate::output::Output;
 use crate::problem::{Problem, evaluation_drive, training_drive};
 use crate::report::{data::Drive, page, plots};
 use crate::run_folder::RunFolder;
+use crate::run_folder::manifest::Input;
 use crate::scenario::Pair;
 use crate::seed::{RunSeed, Stream};
 use crate::signals::StopFlag;
@@ -41,6 +42,9 @@ struct Report<'a> {
     report: String,
     scenario: &'a str,
     seed: u64,
+    /// What the run began with, if not with random networks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    from: Option<&'a Input>,
     generations: u32,
     best: f64,
     training: OnTrainingPairs,
@@ -113,6 +117,7 @@ pub(super) fn finish(
     folder: &RunFolder,
     problem: &Problem,
     seed: RunSeed,
+    from: Option<&Input>,
     training: &Training<'_>,
     stop: &StopFlag,
     output: &mut Output,
@@ -154,7 +159,7 @@ pub(super) fn finish(
         Films::of(problem, best, Pairs::Training, &training.pairs_of(best)?, place)
     };
     let unseen = Evaluation::summary(&outcomes, seed);
-    draw(folder, problem, seed, training, best, films, &on_pairs, &unseen)?;
+    draw(folder, problem, seed, from, training, best, films, &on_pairs, &unseen)?;
 
     let path = |name: &str| folder.join(name).display().to_string();
     let champion = BlobFile::read(&folder.join(RunFolder::CHAMPION))?;
@@ -190,6 +195,7 @@ pub(super) fn finish(
         report: path(RunFolder::REPORT),
         scenario: &problem.scenario.name,
         seed: seed.0,
+        from,
         generations,
         best: best.cost.value(),
         training: on_pairs,
@@ -203,6 +209,7 @@ fn draw(
     folder: &RunFolder,
     problem: &Problem,
     seed: RunSeed,
+    from: Option<&Input>,
     training: &Training<'_>,
     best: &Best,
     films: Films,
@@ -232,7 +239,7 @@ fn draw(
         unseen.reached_share(),
         unseen.clean_share()
     );
-    let provenance = vec![
+    let mut provenance = vec![
         ("evosteer".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
         ("scenario".to_owned(), problem.scenario.name.clone()),
         ("seed".to_owned(), seed.to_string()),
@@ -240,6 +247,10 @@ fn draw(
         ("generation of the champion".to_owned(), best.generation.to_string()),
         ("fitness of the champion".to_owned(), format!("{:.1}", best.cost.value())),
     ];
+    if let Some(Input { path, sha256 }) = from {
+        let champion = format!("{}, SHA-256 {sha256}", path.display());
+        provenance.insert(3, ("began with".to_owned(), champion));
+    }
     let title = format!("{}, seed {seed}", problem.scenario.name);
     let data = picture::report(problem, title, summary, films.drives, history, provenance);
     folder.write(RunFolder::REPORT, page::render(&data).as_bytes())
