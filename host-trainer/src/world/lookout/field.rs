@@ -17,6 +17,7 @@ use super::beams::{self, Beams, NOTHING, Row};
 use super::grid::Grid;
 use crate::vector::{MOST_LANES, RowOfLane, Vector, ones};
 use crate::world::Obstacles;
+use crate::world::shape::Shape;
 use controller_core::geometry::{Body, Ray};
 use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
@@ -35,9 +36,19 @@ const CLOSE: f32 = 0.04;
 const BEYOND: f32 = 0.05;
 const BEYOND_SHARE: f32 = 0.005;
 
-/// Most walls longer than the beams' range, which every beam is tested with first: rounding moves them
-/// the farthest.
+/// Walls longer than this, metres, are left out of the field, and every beam is tested with them first:
+/// along them it would take many small steps. So are all that are longer than the beams' range, which
+/// rounding moves the farthest.
+const LONG: f64 = 3.0;
+
+/// Most walls that are left out.
 const MOST_LONG: usize = 16;
+
+/// Beams on their way at a time, in vectors: the CPU works on one while it waits for the other.
+const WALKS: usize = 2;
+
+/// Steps in a row before beams are looked at that have come close to something.
+const STEPS: usize = 3;
 
 /// Obstacles in a square metre, as most of them have it around, from which on a beam walks.
 const CROWD: f64 = 5.0;
@@ -57,8 +68,9 @@ pub(super) struct Field {
     /// is that of cells with a list; 0 where nobody has been yet. After all cells comes the outside.
     clearances: Box<[AtomicU32]>,
     tiles: Box<[OnceLock<Tile>]>,
-    /// The walls that are longer than the range.
+    /// The walls that are left out, and from which length on.
     long: Box<[Row]>,
+    longest: f64,
     has_discs: bool,
     /// The circle around the body: its middle, ahead of the pose, and a little more than its radius,
     /// metres.
@@ -76,12 +88,15 @@ impl Field {
         // For places on beams, and for contacts, which is more.
         let margin = 1.0e-4 + 24.0 * f32::EPSILON * (farthest + largest);
         let beyond = BEYOND.max(BEYOND_SHARE * range);
-        let long: Box<[Row]> = obstacles
-            .walls()
-            .iter()
-            .filter(|wall| libm::hypotf(wall.b.0 - wall.a.0, wall.b.1 - wall.a.1) > range)
-            .map(beams::edge)
-            .collect();
+        let longer = |length: f64| -> Box<[Row]> {
+            let walls = obstacles.walls().iter();
+            walls.filter(|wall| Shape::from(*wall).length > length).map(beams::edge).collect()
+        };
+        let range_or_less = f64::from(range).min(LONG);
+        let (mut longest, mut long) = (range_or_less, longer(range_or_less));
+        if long.len() > MOST_LONG {
+            (longest, long) = (range.into(), longer(range.into()));
+        }
         if margin > 0.1 * CLOSE || long.len() > MOST_LONG || crowd(obstacles) < CROWD {
             return None;
         }
@@ -99,6 +114,7 @@ impl Field {
             clearances,
             tiles,
             long,
+            longest,
             has_discs,
             body_middle: 0.5 * (rear + front),
             body_radius: 1.001 * libm::hypotf(0.5 * (front - rear), half_width),
@@ -109,7 +125,7 @@ impl Field {
     /// there is none within range. Lanes whose bit in `live` is not set hold anything.
     ///
     /// Some beams take ten times as many steps as others. A lane whose beam has ended goes on with the
-    /// next one, so that none waits.
+    /// next one, so that none waits. What a beam meets, and after which steps, does not depend on the others.
     #[inline(always)]
     pub(super) fn distances<V: Vector, const N: usize>(
         &self,
@@ -120,68 +136,92 @@ impl Field {
         let infinity = V::from(f32::INFINITY);
         let mut distances = [[infinity; BEAMS]; N];
         let begun = self.long_ahead(rays);
-        let mut walk = Walk::<V>::new();
+        let mut walks = [Walk::<V>::new(); WALKS];
         let mut next = 0;
-        let mut ended = lanes::<V>();
         loop {
-            // Beams that have ended make way for others.
-            for lane in ones(ended) {
-                walk.hand_in(lane, self.range, &mut distances);
-                while next < N * BEAMS * V::WIDTH {
-                    let beam = next;
-                    next += 1;
-                    if live[beam / (BEAMS * V::WIDTH)] >> (beam % V::WIDTH) & 1 == 1 {
-                        walk.take(lane, beam, rays, &begun);
-                        break;
+            for walk in &mut walks {
+                // Beams that have ended make way for others.
+                for lane in ones(walk.ended) {
+                    walk.hand_in(lane, self.range, &mut distances);
+                    while next < N * BEAMS * V::WIDTH {
+                        let beam = next;
+                        next += 1;
+                        if live[beam / (BEAMS * V::WIDTH)] >> (beam % V::WIDTH) & 1 == 1 {
+                            walk.take(lane, beam, rays, &begun);
+                            break;
+                        }
                     }
                 }
             }
-
-            let Place { cells, column, row, at } = self.place(&walk);
-            let clearances = self.clearances(cells);
-            let limit = V::from(self.range + self.beyond);
-            let is_open = walk.way.le(limit);
-            let unknown = V::bits(clearances.le(V::from(0.0)) & is_open);
-            if unknown != 0 {
-                self.visit(obstacles, cells, unknown);
-                ended = 0;
-                continue;
-            }
-            let is_far = V::from(CLOSE).lt(clearances) & is_open;
-            let is_close = clearances.le(V::from(CLOSE)) & is_open;
-            let (far, close) = (V::bits(is_far), V::bits(is_close));
-            if far | close == 0 {
+            if walks.iter().all(|walk| walk.taken == 0) {
                 break;
             }
-            let margin = V::from(self.margin);
-            let mut way = V::select(is_far, walk.way + (clearances - margin), walk.way);
-            // Together they take as many tests as the longest list has obstacles.
-            if far == 0 || close.count_ones() >= V::WIDTH as u32 * 5 / 8 {
-                let close_by = self.close_by(column, row, close);
-                let mut beams = Beams::met(walk.ray, walk.near);
-                for round in 0..close_by.longest {
-                    let rows = V::rows(CloseInRound { lists: &close_by.lists, round });
-                    if self.has_discs {
-                        beams.any(rows);
-                    } else {
-                        beams.wall(rows);
-                    }
+            for _ in 0..STEPS {
+                for walk in &mut walks {
+                    self.go_on(walk);
                 }
-                walk.near = V::select(is_close, beams.near(), walk.near);
-                // To the edge of the square that the list covers.
-                let half = V::from(0.5 * self.grid.side() as f32 + CLOSE);
-                let centre = self.grid.centre(column, row);
-                let x = half + forward(centre.0 - at.0, walk.ray.direction.0);
-                let y = half + forward(centre.1 - at.1, walk.ray.direction.1);
-                let across = (x * walk.per_step.0).min(y * walk.per_step.1);
-                way = V::select(is_close, way + (across - margin), way);
             }
-            let has_met = (walk.near + V::from(self.beyond)).le(way);
-            walk.way = V::select(has_met, infinity, way);
-            ended = (far | close) & !V::bits(walk.way.le(limit));
+            for walk in &mut walks {
+                self.look_around(obstacles, walk);
+            }
         }
         self.find_from_outside(obstacles, rays, live, &mut distances);
         distances
+    }
+
+    /// Lets the beams go as far as nothing is close by.
+    #[inline(always)]
+    fn go_on<V: Vector>(&self, walk: &mut Walk<V>) {
+        let clearances = self.clearances(self.place(walk).cells);
+        let goes_on = V::from(CLOSE).lt(clearances) & self.is_open(walk);
+        let way = walk.way + (clearances - V::from(self.margin));
+        walk.way = V::select(goes_on, way, walk.way);
+    }
+
+    /// Tests the beams that have come close to something with what is there, and finds those that
+    /// have ended.
+    #[inline(always)]
+    fn look_around<V: Vector>(&self, obstacles: &Obstacles, walk: &mut Walk<V>) {
+        let Place { cells, column, row, at } = self.place(walk);
+        let clearances = self.clearances(cells);
+        let is_open = self.is_open(walk);
+        let unknown = V::bits(clearances.le(V::from(0.0)) & is_open);
+        if unknown != 0 {
+            self.visit(obstacles, cells, unknown);
+            walk.ended = 0;
+            return;
+        }
+        let is_close = clearances.le(V::from(CLOSE)) & is_open;
+        let close = V::bits(is_close);
+        if close != 0 {
+            let close_by = self.close_by(column, row, close);
+            let mut beams = Beams::met(walk.ray, walk.near);
+            for round in 0..close_by.longest {
+                let rows = V::rows(CloseInRound { lists: &close_by.lists, round });
+                if self.has_discs {
+                    beams.any(rows);
+                } else {
+                    beams.wall(rows);
+                }
+            }
+            walk.near = V::select(is_close, beams.near(), walk.near);
+            // To the edge of the square that the list covers.
+            let half = V::from(0.5 * self.grid.side() as f32 + CLOSE);
+            let centre = self.grid.centre(column, row);
+            let x = half + forward(centre.0 - at.0, walk.ray.direction.0);
+            let y = half + forward(centre.1 - at.1, walk.ray.direction.1);
+            let across = (x * walk.per_step.0).min(y * walk.per_step.1);
+            let way = walk.way + (across - V::from(self.margin));
+            walk.way = V::select(is_close, way, walk.way);
+        }
+        walk.ended = walk.taken & !V::bits(self.is_open(walk));
+    }
+
+    /// Which beams are still on their way: within range, and not well beyond what they have met.
+    #[inline(always)]
+    fn is_open<V: Vector>(&self, walk: &Walk<V>) -> V::Mask {
+        let beyond = V::from(self.beyond);
+        walk.way.le(V::from(self.range) + beyond) & walk.way.lt(walk.near + beyond)
     }
 
     /// How far each beam goes to the long walls alone.
@@ -208,9 +248,20 @@ impl Field {
     /// outside of all cells, any may.
     #[inline(always)]
     pub(super) fn may_touch<V: Vector>(&self, pose: &Pose<V>) -> u32 {
-        let cells = self.grid.locate(pose.to_world(V::from(self.body_middle), V::from(0.0)));
-        let is_close = self.clearances(cells).le(V::from(self.body_radius + self.margin));
-        V::bits(is_close | V::from(self.grid.cells() as f32).le(cells))
+        let middle = pose.to_world(V::from(self.body_middle), V::from(0.0));
+        let cells = self.grid.locate(middle);
+        let reach = V::from(self.body_radius + self.margin);
+        let mut may =
+            self.clearances(cells).le(reach) | V::from(self.grid.cells() as f32).le(cells);
+        for row in &self.long {
+            let [x, y, ex, ey] = row.map(V::from);
+            let (wx, wy) = (middle.0 - x, middle.1 - y);
+            let length = ex * ex + ey * ey;
+            let along = ((wx * ex + wy * ey) / length).max(V::from(0.0)).min(V::from(1.0));
+            let (dx, dy) = (wx - along * ex, wy - along * ey);
+            may = may | (dx * dx + dy * dy).le(reach * reach);
+        }
+        V::bits(may)
     }
 
     /// Where the beams of a walk are.
@@ -256,7 +307,8 @@ impl Field {
     fn visit<V: Vector>(&self, obstacles: &Obstacles, cells: V, lanes: u32) {
         for lane in ones(lanes) {
             let tile = self.grid.tile(cells.lanes()[lane] as usize);
-            let known = self.tiles[tile].get_or_init(|| Tile::new(&self.grid, tile, obstacles));
+            let known = self.tiles[tile]
+                .get_or_init(|| Tile::new(&self.grid, tile, obstacles, self.longest));
             // By each who finds it unwritten; they all write the same.
             for (cell, place) in self.grid.cells_of_tile(tile) {
                 self.clearances[cell].store(known.clearance(place).to_bits(), Ordering::Release);
@@ -304,6 +356,7 @@ struct Place<V> {
 }
 
 /// Beams on their way, one in each lane.
+#[derive(Clone, Copy)]
 struct Walk<V> {
     /// Which beam it is, counted lane by lane, beam by beam, car by car.
     beam: [usize; MOST_LANES],
@@ -314,6 +367,9 @@ struct Walk<V> {
     way: V,
     /// The nearest of what has been met.
     near: V,
+    /// In which lanes there are beams, and which lanes are to get new ones, as bits.
+    taken: u32,
+    ended: u32,
 }
 
 /// Stands for no beam.
@@ -330,6 +386,8 @@ impl<V: Vector> Walk<V> {
             per_step: (infinity, infinity),
             way: infinity,
             near: infinity,
+            taken: 0,
+            ended: lanes::<V>(),
         }
     }
 
@@ -346,6 +404,7 @@ impl<V: Vector> Walk<V> {
         let ray = &rays[vector / BEAMS][vector % BEAMS];
         let (dx, dy) = (ray.direction.0.lanes()[from], ray.direction.1.lanes()[from]);
         self.beam[lane] = beam;
+        self.taken |= 1 << lane;
         self.ray.origin.0.lanes_mut()[lane] = ray.origin.0.lanes()[from];
         self.ray.origin.1.lanes_mut()[lane] = ray.origin.1.lanes()[from];
         self.ray.direction.0.lanes_mut()[lane] = dx;
@@ -366,6 +425,7 @@ impl<V: Vector> Walk<V> {
     ) {
         let beam = std::mem::replace(&mut self.beam[lane], NO_BEAM);
         self.way.lanes_mut()[lane] = f32::INFINITY;
+        self.taken &= !(1 << lane);
         if beam != NO_BEAM {
             let near = self.near.lanes()[lane];
             let vector = beam / V::WIDTH;

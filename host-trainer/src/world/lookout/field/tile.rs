@@ -26,15 +26,18 @@ pub(super) struct Tile {
 }
 
 impl Tile {
-    /// Looks at the obstacles in and around a tile.
-    pub(super) fn new(grid: &Grid, tile: usize, obstacles: &Obstacles) -> Self {
+    /// Looks at the obstacles in and around a tile, but for walls longer than the `longest`, metres.
+    pub(super) fn new(grid: &Grid, tile: usize, obstacles: &Obstacles, longest: f64) -> Self {
         let inner = grid.tile_rect(tile);
         let first = grid.first_of_tile(tile);
-        let clearances = clearances(grid, &first, obstacles);
+        let clearances = clearances(grid, &first, obstacles, longest);
 
         let mut lists: Vec<Vec<Row>> = vec![Vec::new(); TILE * TILE];
         let close = f64::from(CLOSE);
         obstacles.each_near(&inner, 2.0 * close, |place, shape| {
+            if shape.length > longest {
+                return;
+            }
             let row = row(obstacles, place);
             for (x, y) in Block::new(grid, &first, 0).touched(&shape, close) {
                 lists[y * TILE + x].push(row);
@@ -117,10 +120,13 @@ impl Block {
 /// Of the gaps between two cells along x and y the squares add up, so the nearest is found along
 /// x first, then along y (P. Felzenszwalb and D. Huttenlocher, 2012; in so few cells the plain minimum
 /// is quick enough).
-fn clearances(grid: &Grid, first: &Rect, obstacles: &Obstacles) -> Box<[f32]> {
+fn clearances(grid: &Grid, first: &Rect, obstacles: &Obstacles, longest: f64) -> Box<[f32]> {
     let block = Block::new(grid, first, AROUND);
     let mut is_taken = vec![[false; WIDE]; WIDE];
     obstacles.each_near(&block.rect(), 0.0, |_, shape| {
+        if shape.length > longest {
+            return;
+        }
         for (x, y) in block.touched(&shape, 0.0) {
             is_taken[y][x] = true;
         }
@@ -173,28 +179,32 @@ mod tests {
         to_shape.into_iter().chain(to_rect).fold(f64::INFINITY, f64::min) - shape.radius
     }
 
-    /// The oracle measures every obstacle from every cell.
+    /// The oracle measures every obstacle from every cell, but for the wall that is too long.
     #[test]
     fn clearances_are_not_too_large_and_lists_are_complete() {
+        const LONGEST: f64 = 3.0;
         let mut random = RunSeed(5).stream(Purpose::Episode, 0, 0);
         let mut wall = |reach: f32| {
             let (x, y) = (random.within(0.0, 7.0), random.within(0.0, 5.0));
             let end = (x + random.within(-reach, reach), y + random.within(-reach, reach));
             Segment { a: (x, y), b: end }
         };
-        let walls: Vec<_> = (0..40).map(|n| wall(if n == 0 { 9.0 } else { 0.1 })).collect();
+        let walls: Vec<_> = (0..40).map(|n| wall([9.0, 2.0, 0.1][n.min(2)])).collect();
         let discs = vec![Disc { centre: (1.0, 4.0), radius: 0.4 }];
         let shapes: Vec<Shape> =
             walls.iter().map(Shape::from).chain(discs.iter().map(Shape::from)).collect();
+        let too_long = shapes.iter().filter(|shape| shape.length > LONGEST).count();
+        assert!(too_long == 1 && shapes[0].length > LONGEST && shapes[1].length > 1.0);
         let obstacles = Obstacles::new(walls, discs);
         let [low, high] = obstacles.bounds();
         let grid = Grid::of_side(low, high, 0.1);
         let (mut free, mut listed) = (0, 0);
         for tile in 0..grid.tiles() {
-            let known = Tile::new(&grid, tile, &obstacles);
+            let known = Tile::new(&grid, tile, &obstacles, LONGEST);
             for (cell, place) in grid.cells_of_tile(tile) {
                 let rect = grid.rect(cell);
-                let distances = shapes.iter().map(|shape| distance(shape, &rect));
+                let shapes = || (0..).zip(&shapes).filter(|(_, shape)| shape.length <= LONGEST);
+                let distances = shapes().map(|(_, shape)| distance(shape, &rect));
                 let nearest = distances.fold(f64::INFINITY, f64::min);
                 let clearance = f64::from(known.clearance(place));
                 if clearance > f64::from(CLOSE) {
@@ -205,10 +215,11 @@ mod tests {
                 } else {
                     let square = rect.grown(f64::from(CLOSE) - 1e-5);
                     let list = known.close_by(place);
-                    for (place, shape) in (0..).zip(&shapes) {
+                    for (place, shape) in shapes() {
                         let is_listed = list.contains(&row(&obstacles, place));
                         assert!(is_listed || shape.distance(&square) > 0.0, "cell {cell}: {place}");
                     }
+                    assert!(!list.contains(&row(&obstacles, 0)), "cell {cell}");
                     listed += list.len();
                 }
             }
