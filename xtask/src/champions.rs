@@ -23,8 +23,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     process::run(process::cargo().args(["build", "--release", "--package", "host-trainer"]))?;
     let mut different = Vec::new();
     for champion in chosen {
-        let text = provenance(&folder, champion)?;
-        let stage = stage(&arguments(&text, champion)?)?;
+        let stage = first_stage(champion, |name| provenance(&folder, name))?;
+        let stage = stage.as_deref();
         for name in stage.into_iter().chain([champion.as_str()]) {
             let trained = train(&provenance(&folder, name)?, name)?;
             let shipped = folder.join(format!("{name}.blob"));
@@ -78,6 +78,22 @@ fn stage<'a>(words: &[&'a str]) -> Result<Option<&'a str>, Failure> {
     }
 }
 
+/// The first stage of a champion, if it has one, which has none itself.
+fn first_stage(
+    champion: &str,
+    provenance: impl Fn(&str) -> Result<String, Failure>,
+) -> Result<Option<String>, Failure> {
+    let text = provenance(champion)?;
+    let Some(name) = stage(&arguments(&text, champion)?)? else { return Ok(None) };
+    let text = provenance(name)?;
+    if stage(&arguments(&text, name)?)?.is_some() {
+        return Err(Failure::failed(format!(
+            "champions/{name}.toml: found --from, expected a training that begins with random networks"
+        )));
+    }
+    Ok(Some(name.to_owned()))
+}
+
 fn provenance(folder: &Path, name: &str) -> Result<String, Failure> {
     Ok(String::from_utf8_lossy(&read(&folder.join(format!("{name}.toml")))?).into_owned())
 }
@@ -128,16 +144,32 @@ mod tests {
         let names = names(&folder).expect("a folder");
         assert!(!names.is_empty());
         for name in names {
-            let text = provenance(&folder, &name).expect(&name);
-            let words = arguments(&text, &name).expect(&name);
-            let stage =
-                stage(&words).expect(&name).map(|name| provenance(&folder, name).expect(name));
-            for text in [Some(text.clone()), stage].into_iter().flatten() {
-                let words = arguments(&text, &name).expect(&name);
+            let of = |name: &str| provenance(&folder, name);
+            let stage = first_stage(&name, of).expect(&name);
+            for name in stage.iter().chain([&name]) {
+                let text = of(name).expect(name);
+                let words = arguments(&text, name).expect(name);
                 assert_eq!(words[0], "train", "{name}");
                 assert!(!words.contains(&"--out"), "{name}: the folder is chosen by the task");
             }
         }
+    }
+
+    #[test]
+    fn a_first_stage_has_none_itself() {
+        let of = |name: &str| {
+            let options = match name {
+                "b" => "--from champions/stages/a.blob --seed 2",
+                "c" => "--from champions/stages/b.blob",
+                "stages/b" => "--from champions/stages/a.blob",
+                _ => "--seed 1",
+            };
+            Ok(format!("command = \"evosteer train open {options}\"\n"))
+        };
+        assert_eq!(first_stage("a", of).expect("a"), None);
+        assert_eq!(first_stage("b", of).expect("b").as_deref(), Some("stages/a"));
+        let said = first_stage("c", of).expect_err("two stages").to_string();
+        assert!(said.starts_with("champions/stages/b.toml: found --from"), "{said}");
     }
 
     #[test]

@@ -24,7 +24,7 @@ use proptest::test_runner::{Config, TestCaseError, TestRunner};
 /// All that a scenario can ask of a drive.
 fn scenarios() -> impl Strategy<Value = Scenario> {
     let places = (
-        select(vec!["open", "obstacles", "complex", "barn_000"]),
+        select(vec!["open", "obstacles", "complex", "barn_000", "tb3_sandbox"]),
         select(vec![OnCollision::Hold, OnCollision::Stop]),
         select(vec![ReachedBy::Body, ReachedBy::ReferencePoint]),
         select(vec![0.0_f32, 0.3]),

@@ -19,7 +19,7 @@
 //! | `beams` | the tests, many beams side by side |
 //! | `shelf` | what is found once for each cell |
 //! | `words`, `asked` | how it is kept in few bytes, and read for many beams at once |
-//! | `field` | how far beams may go at once, where lists would be long |
+//! | `field` | how far beams may go at once, where lists would be long, and the few long walls there |
 //! | `legends` | what names mean where obstacles are many |
 //! | `kept` | what does not fit into words |
 //! | `cell`, `candidate`, `cone`, `discs`, `shade`, `reach`, `rounding` | how it is found, and what may be left out |

@@ -90,7 +90,7 @@ fn a_run_goes_on_only_with_the_champion_that_it_began_with() {
     fs::remove_file(copy).unwrap();
     fs::remove_dir_all(bench.path("first")).unwrap();
     let said = resume();
-    assert!(said.contains("has lost from.blob") && said.contains("first"), "{said}");
+    assert!(said.contains("has lost from.blob") && said.contains("first: no such file"), "{said}");
     assert!(bench.results("run")["manifest.toml"] == before);
 }
 

@@ -10,6 +10,7 @@ use host_trainer::problem::{Problem, adopt_car};
 use host_trainer::scenario::{self, Scenario, Setting};
 use host_trainer::seed::RunSeed;
 use host_trainer::signals::StopFlag;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Pairs and their seed, for the figures.
@@ -123,7 +124,7 @@ fn a_champions_file_says_what_its_blob_holds_and_how_it_drives() {
 /// What a shipped champion's training begins with lies there, with the command that makes it.
 #[test]
 fn the_first_stages_of_champions_are_what_their_files_say() {
-    let mut stages = Vec::new();
+    let mut stages = BTreeSet::new();
     for champion in CHAMPIONS {
         let Some(blob) = begins_with(command(champion)) else { continue };
         let file = BlobFile::read(&pages::root().join(blob)).unwrap();
@@ -137,7 +138,7 @@ fn the_first_stages_of_champions_are_what_their_files_say() {
         );
         pages::expect(&page, &text);
         assert_made_by(&command, &file);
-        stages.push(page);
+        stages.insert(page);
     }
     let folder = std::fs::read_dir(pages::root().join("champions/stages"));
     assert_eq!(

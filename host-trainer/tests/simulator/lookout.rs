@@ -157,6 +157,28 @@ fn in_every_shipped_world_a_lookout_sees_and_feels_what_every_obstacle_says() {
     }
 }
 
+/// Of many long walls only some are left out of the field that beams walk through.
+#[test]
+fn long_walls_in_a_crowd_are_seen_and_felt_however_many_there_are() {
+    for long in [3, 16, 17, 40] {
+        let mut random = random(long);
+        let mut wall = |from: f32, to: f32| {
+            let (x, y) = (random.within(0.0, 8.0), random.within(0.0, 8.0));
+            let (length, turn) = (random.within(from, to), random.within(-PI, PI));
+            Segment { a: (x, y), b: (x + length * turn.cos(), y + length * turn.sin()) }
+        };
+        let mut walls: Vec<_> = (0..400).map(|_| wall(0.02, 0.2)).collect();
+        walls.extend((0..long).map(|_| wall(3.1, 7.0)));
+        let mut pair = Pair::new(walls, Vec::new(), Fan::new(&mounts(USUAL), 10.0), BODY);
+        for _ in 0..400 {
+            let (x, y) = (random.within(0.0, 8.0), random.within(0.0, 8.0));
+            pair.compare(&Pose::new(x, y, random.within(-PI, PI)));
+        }
+        assert!(pair.lookout.beams_walk());
+        assert!(pair.seen > 1000 && pair.touched > 100, "{long}: {}, {}", pair.seen, pair.touched);
+    }
+}
+
 /// Points, sizes and directions that come out exact more often than chance would have it.
 struct Scene {
     stream: Stream,

@@ -1,6 +1,6 @@
 //! The champion that a run begins with, where it does not begin with random networks.
 
-use crate::blob_file::{BlobFile, FileBytes, refusal};
+use crate::blob_file::BlobFile;
 use crate::champion::shipped::{CHAMPIONS, Champion};
 use crate::failure::Failure;
 use crate::fingerprint::sha256;
@@ -10,7 +10,6 @@ use crate::run_folder::RunFolder;
 use crate::run_folder::manifest::Input;
 use crate::scenario::words_of;
 use std::fmt;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Such a champion, read and checked.
@@ -53,22 +52,19 @@ impl Beginning {
     /// Neither is there, or it is no longer what it was.
     pub(super) fn of_run(folder: &RunFolder, input: Input) -> Result<Self, Failure> {
         let path = folder.join(RunFolder::FROM);
-        let champion = match std::fs::read(&path) {
-            Ok(bytes) => BlobFile::check(FileBytes::new(path, &bytes))
-                .map_err(|(file, cause)| refusal(file.path(), &cause))?,
-            Err(cause) if cause.kind() == ErrorKind::NotFound => {
-                let original = Self::read(&input.path).map_err(|_| {
-                    Failure::bad_input(format!(
-                        "the run in {} has lost {}, its copy of the champion that it began with, {}, which is \
-                         not there either; expected one of them",
-                        folder.path().display(),
-                        RunFolder::FROM,
-                        input.path.display()
-                    ))
-                })?;
-                original.champion
-            }
-            Err(cause) => return Err(Failure::io("read", &path, &cause)),
+        let has_copy = path.exists();
+        let champion = if has_copy {
+            BlobFile::read_as("--resume", &path)?
+        } else {
+            let original = Self::read(&input.path).map_err(|cause| {
+                Failure::bad_input(format!(
+                    "--resume: the run in {} has lost {}, its copy of the champion that it began with, and the \
+                     original cannot take its place: {cause}",
+                    folder.path().display(),
+                    RunFolder::FROM
+                ))
+            })?;
+            original.champion
         };
         let found = sha256(champion.bytes());
         if found != input.sha256 {
@@ -80,7 +76,9 @@ impl Beginning {
             )));
         }
         let beginning = Self { champion, input };
-        beginning.copy_to(folder)?;
+        if !has_copy {
+            beginning.copy_to(folder)?;
+        }
         Ok(beginning)
     }
 

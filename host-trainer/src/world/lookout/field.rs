@@ -6,6 +6,9 @@
 //! obstacle is, so the beam may go as far at once. Where that is next to nothing, it is tested with all
 //! obstacles close by. It has ended where what it met lies nearer than it has walked.
 //!
+//! A few long walls, such as those around a hall, are no part of the field: each beam is tested with them
+//! before it sets out.
+//!
 //! The distance is computed by the same arithmetic from the same walls as in a test of all, and so
 //! are its bits. What the walk may not come by is a wall that runs along the beam's line, within some
 //! ten-thousandths of a radian, and begins beyond what the beam meets first: rounding alone
@@ -18,7 +21,7 @@ use super::grid::Grid;
 use crate::vector::{MOST_LANES, RowOfLane, Vector, ones};
 use crate::world::Obstacles;
 use crate::world::shape::Shape;
-use controller_core::geometry::{Body, Ray};
+use controller_core::geometry::{Body, Ray, Segment};
 use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
 use std::sync::OnceLock;
@@ -36,12 +39,12 @@ const CLOSE: f32 = 0.04;
 const BEYOND: f32 = 0.05;
 const BEYOND_SHARE: f32 = 0.005;
 
-/// Walls longer than this, metres, are left out of the field, and every beam is tested with them first:
-/// along them it would take many small steps. So are all that are longer than the beams' range, which
-/// rounding moves the farthest.
+/// Walls longer than this, metres, may be left out of the field. Every beam is tested with those first:
+/// along them it would take many small steps.
 const LONG: f64 = 3.0;
 
-/// Most walls that are left out.
+/// Most walls that are left out, the longest; among them must be all that are longer than the beams'
+/// range, which rounding moves the farthest.
 const MOST_LONG: usize = 16;
 
 /// Beams on their way at a time, in vectors: the CPU works on one while it waits for the other.
@@ -68,7 +71,7 @@ pub(super) struct Field {
     /// is that of cells with a list; 0 where nobody has been yet. After all cells comes the outside.
     clearances: Box<[AtomicU32]>,
     tiles: Box<[OnceLock<Tile>]>,
-    /// The walls that are left out, and from which length on.
+    /// The walls that are left out: those longer than the longest that is not, metres, or than [`LONG`].
     long: Box<[Row]>,
     longest: f64,
     has_discs: bool,
@@ -88,16 +91,14 @@ impl Field {
         // For places on beams, and for contacts, which is more.
         let margin = 1.0e-4 + 24.0 * f32::EPSILON * (farthest + largest);
         let beyond = BEYOND.max(BEYOND_SHARE * range);
-        let longer = |length: f64| -> Box<[Row]> {
-            let walls = obstacles.walls().iter();
-            walls.filter(|wall| Shape::from(*wall).length > length).map(beams::edge).collect()
-        };
-        let range_or_less = f64::from(range).min(LONG);
-        let (mut longest, mut long) = (range_or_less, longer(range_or_less));
-        if long.len() > MOST_LONG {
-            (longest, long) = (range.into(), longer(range.into()));
-        }
-        if margin > 0.1 * CLOSE || long.len() > MOST_LONG || crowd(obstacles) < CROWD {
+        let length = |wall: &Segment<f32>| Shape::from(wall).length;
+        let mut lengths: Vec<f64> = obstacles.walls().iter().map(length).collect();
+        lengths.sort_unstable_by(|a, b| b.total_cmp(a));
+        let longest_kept = lengths.get(MOST_LONG).copied().unwrap_or_default();
+        let longest = longest_kept.max(f64::from(range).min(LONG));
+        let long = obstacles.walls().iter().filter(|wall| length(wall) > longest);
+        let long: Box<[Row]> = long.map(beams::edge).collect();
+        if margin > 0.1 * CLOSE || longest_kept > range.into() || crowd(obstacles) < CROWD {
             return None;
         }
         let grid = Grid::of_side(low, high, SIDE);
