@@ -165,7 +165,7 @@ fn long_walls_in_a_crowd_are_seen_and_felt_however_many_there_are() {
         let mut wall = |from: f32, to: f32| {
             let (x, y) = (random.within(0.0, 8.0), random.within(0.0, 8.0));
             let (length, turn) = (random.within(from, to), random.within(-PI, PI));
-            Segment { a: (x, y), b: (x + length * turn.cos(), y + length * turn.sin()) }
+            Segment { a: (x, y), b: (x + length * libm::cosf(turn), y + length * libm::sinf(turn)) }
         };
         let mut walls: Vec<_> = (0..400).map(|_| wall(0.02, 0.2)).collect();
         walls.extend((0..long).map(|_| wall(3.1, 7.0)));
