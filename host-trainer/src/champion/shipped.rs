@@ -32,6 +32,11 @@ macro_rules! champion {
 pub const CHAMPIONS: &[Champion] =
     &[champion!("open"), champion!("obstacles"), champion!("complex"), champion!("depot")];
 
+/// The scenes of all of them, as a message lists them.
+pub fn scenes() -> String {
+    CHAMPIONS.iter().map(|champion| champion.scene).collect::<Vec<_>>().join(", ")
+}
+
 impl Champion {
     /// The champion of this scene.
     pub fn of(scene: &str) -> Option<&'static Self> {

@@ -2,7 +2,7 @@
 
 use super::film::Film;
 use super::setup::{ScenarioOptions, WhichPairs, problem_for};
-use crate::champion::shipped::{CHAMPIONS, Champion};
+use crate::champion::shipped::{CHAMPIONS, Champion, scenes};
 use crate::failure::Failure;
 use crate::output::Output;
 
@@ -24,10 +24,9 @@ pub struct DemoArgs {
 }
 
 fn parse_scene(text: &str) -> Result<String, String> {
-    let names: Vec<&str> = CHAMPIONS.iter().map(|champion| champion.scene).collect();
     match Champion::of(text) {
         Some(champion) => Ok(champion.scene.to_owned()),
-        None => Err(format!("expected a scene with a shipped champion: {}", names.join(", "))),
+        None => Err(format!("expected a scene with a shipped champion: {}", scenes())),
     }
 }
 

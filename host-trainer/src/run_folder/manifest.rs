@@ -73,6 +73,23 @@ impl Input {
         };
         Ok(Self { path: path.to_owned(), sha256 })
     }
+
+    /// Refuses the file, now at `path`, if it is no longer what it was when the run began.
+    ///
+    /// # Errors
+    ///
+    /// Bad input, if its fingerprint `found` is another.
+    pub fn expect(&self, found: &str, path: &Path, folder: &RunFolder) -> Result<(), Failure> {
+        if found == self.sha256 {
+            return Ok(());
+        }
+        Err(Failure::bad_input(format!(
+            "{} has changed since the run in {} began: its SHA-256 is {found}, expected {}",
+            path.display(),
+            folder.path().display(),
+            self.sha256
+        )))
+    }
 }
 
 impl<S: Serialize + DeserializeOwned> Manifest<S> {
@@ -120,15 +137,7 @@ impl<S: Serialize + DeserializeOwned> Manifest<S> {
         let manifest = Self::read_in(folder.path())?;
         for input in &manifest.inputs {
             let now = Input::of_file(&input.path)?;
-            if now.sha256 != input.sha256 {
-                return Err(Failure::bad_input(format!(
-                    "{} has changed since the run in {} began: its SHA-256 is {}, expected {}",
-                    input.path.display(),
-                    folder.path().display(),
-                    now.sha256,
-                    input.sha256
-                )));
-            }
+            input.expect(&now.sha256, &input.path, folder)?;
         }
         Ok(manifest)
     }

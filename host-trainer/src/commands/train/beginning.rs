@@ -1,7 +1,7 @@
 //! The champion that a run begins with, where it does not begin with random networks.
 
 use crate::blob_file::BlobFile;
-use crate::champion::shipped::{CHAMPIONS, Champion};
+use crate::champion::shipped::{Champion, scenes};
 use crate::failure::Failure;
 use crate::fingerprint::sha256;
 use crate::output::Output;
@@ -29,12 +29,11 @@ impl Beginning {
         let champion = match path.to_str().and_then(Champion::of) {
             Some(shipped) => shipped.file(),
             None if !path.exists() => {
-                let scenes: Vec<&str> = CHAMPIONS.iter().map(|champion| champion.scene).collect();
                 return Err(Failure::bad_input(format!(
                     "--from {}: no such file; expected a weight blob, a run folder, or the scene of a \
                      shipped champion: {}",
                     path.display(),
-                    scenes.join(", ")
+                    scenes()
                 )));
             }
             None => BlobFile::read_as("--from", path)?,
@@ -66,15 +65,7 @@ impl Beginning {
             })?;
             original.champion
         };
-        let found = sha256(champion.bytes());
-        if found != input.sha256 {
-            return Err(Failure::bad_input(format!(
-                "{} has changed since the run in {} began: its SHA-256 is {found}, expected {}",
-                champion.path().display(),
-                folder.path().display(),
-                input.sha256
-            )));
-        }
+        input.expect(&sha256(champion.bytes()), champion.path(), folder)?;
         let beginning = Self { champion, input };
         if !has_copy {
             beginning.copy_to(folder)?;

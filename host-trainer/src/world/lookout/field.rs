@@ -93,8 +93,11 @@ impl Field {
         let beyond = BEYOND.max(BEYOND_SHARE * range);
         let length = |wall: &Segment<f32>| Shape::from(wall).length;
         let mut lengths: Vec<f64> = obstacles.walls().iter().map(length).collect();
-        lengths.sort_unstable_by(|a, b| b.total_cmp(a));
-        let longest_kept = lengths.get(MOST_LONG).copied().unwrap_or_default();
+        let longest_kept = if lengths.len() > MOST_LONG {
+            *lengths.select_nth_unstable_by(MOST_LONG, |a, b| b.total_cmp(a)).1
+        } else {
+            0.0
+        };
         let longest = longest_kept.max(f64::from(range).min(LONG));
         let long = obstacles.walls().iter().filter(|wall| length(wall) > longest);
         let long: Box<[Row]> = long.map(beams::edge).collect();
