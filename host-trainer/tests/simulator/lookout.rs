@@ -368,7 +368,7 @@ fn a_beam_that_passes_a_corner_by_a_hair_meets_what_every_obstacle_says() {
     ];
     for (far, cells) in places {
         let overlap = 1e-5_f32.max(8.0 * f32::EPSILON * far);
-        for crowded in [false, true] {
+        for (crowded, large) in [(false, false), (true, false), (false, true)] {
             let mut scene =
                 Scene { stream: crate::worlds::random(9), size: 6.0, offset: (far, -0.7 * far) };
             let mut walls = Vec::new();
@@ -390,8 +390,18 @@ fn a_beam_that_passes_a_corner_by_a_hair_meets_what_every_obstacle_says() {
             if crowded {
                 walls.extend(scene.posts());
             }
+            if large {
+                // So many, all out of range, that names mean something else from place to place.
+                let (x, y) = scene.offset;
+                let post = |n: u16| {
+                    let (x, y) = (x + f32::from(n), y + 60.0);
+                    Segment { a: (x, y), b: (x + 0.5, y) }
+                };
+                walls.extend((0..300).map(post));
+            }
             let fan = Fan::new(&mounts(USUAL), 10.0);
             let mut pair = Pair::by(cells, walls, Vec::new(), fan, BODY);
+            assert!(!(large && pair.lookout.beams_walk()), "{far}: no crowd");
             for _ in 0..4_000 {
                 let (x, y) = scene.place();
                 let corner = corners[random.index(corners.len())];

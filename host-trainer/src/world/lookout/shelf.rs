@@ -11,7 +11,7 @@ use super::grid::Grid;
 use super::kept::Kept;
 use super::legends::{Legends, MOST_NAMES, Naming};
 use super::rounding::Limits;
-use super::words::{JOINT, NAME, NAMES, UNKNOWN, Word, Words};
+use super::words::{JOINT, NAME, NAMES, UNKNOWN, Whole, Word, Words};
 use crate::vector::{ByName, MOST_LANES, Table, Vector};
 use crate::world::Obstacles;
 use controller_core::geometry::{Body, Segment};
@@ -58,6 +58,10 @@ struct Large {
     /// Shelves given out.
     taken: AtomicU32,
     legends: Legends,
+    /// A [`Whole`] by shelf and bin, for beams that pass a wall's end too closely; 0 where there is none.
+    wholes: Box<[AtomicU32]>,
+    /// What these name, kept apart so that there are numbers enough for both.
+    whole_words: Words,
 }
 
 /// Where to look for what is known of a cell, and how to read it.
@@ -85,7 +89,7 @@ pub(super) struct Shelves<V> {
 }
 
 /// Obstacles whose word does not name all there are: too many, or, in a large world, some hidden only
-/// from beams that pass no wall's end too closely.
+/// from beams that pass no wall's end too closely, and there is no [`Whole`].
 #[derive(Debug)]
 struct Lists {
     seen: Kept,
@@ -156,6 +160,12 @@ impl Shelf {
             spots: bytemuck::zeroed_slice_box(grid.cells() + 1),
             taken: AtomicU32::new(1),
             legends: Legends::new(grid.tiles(), reach),
+            wholes: bytemuck::zeroed_slice_box(if is_for_beams {
+                MOST_SHELVES * BINS as usize
+            } else {
+                0
+            }),
+            whole_words: Words::new(),
         });
         let shelves = if large.is_some() { MOST_SHELVES } else { grid.cells() + 1 };
         Self {
@@ -318,6 +328,13 @@ impl Shelf {
         let spot @ Spot { shelf, legend } = self.spot(grid, obstacles, cell)?;
         let lists = self.lists[shelf as usize]
             .get_or_init(|| Box::new(self.look_around(grid, obstacles, cell, spot)));
+        if let (Question::Seen(bin), Some(large)) = (question, &self.large)
+            && let Some(whole) = Whole::in_place(&large.wholes[(shelf * BINS + bin) as usize])
+        {
+            let word = large.whole_words.all().of_number(whole.number());
+            self.each_named(&self.edges, legend, word, f);
+            return Some(Sure::Within(whole.beyond(self.surroundings.range)));
+        }
         let (kept, part, numbers, table, at) = match question {
             Question::Seen(bin) => (&lists.seen, bin, &self.seen, &self.edges, shelf * BINS + bin),
             Question::Near(sector) => {
@@ -332,11 +349,15 @@ impl Shelf {
         if word & UNKNOWN != 0 {
             return None;
         }
-        let names = word.to_le_bytes();
-        for name in names[..NAMES].iter().take_while(|name| **name != 0) {
-            f(&table.all[self.row(legend, *name)]);
-        }
+        self.each_named(table, legend, word, f);
         Some(if word & JOINT != 0 { Sure::UnlessDoubtful } else { Sure::Within(f32::INFINITY) })
+    }
+
+    /// Calls `f` with the obstacle of every name in a word.
+    fn each_named(&self, table: &Rows, legend: u32, word: Word, f: impl FnMut(&Row)) {
+        let names = word.to_le_bytes();
+        let named = names[..NAMES].iter().take_while(|name| **name != 0);
+        named.map(|name| &table.all[self.row(legend, *name)]).for_each(f);
     }
 
     /// Where in the tables a name's obstacle is.
@@ -382,30 +403,38 @@ impl Shelf {
             None => Naming::Own(Vec::new()),
             Some(large) => large.legends.naming(grid.tile(cell as usize)),
         };
-        // Returns whether there is a word that names all of these places.
-        let mut write = |numbers: &[AtomicU16], at: u32, places: &[u32], flags: Word| {
-            let named = |(n, place): (u32, &u32)| {
-                let name = self.name(legend, &mut naming, *place)?;
-                Some(Word::from(name) << (n * NAME))
-            };
-            let word = if places.len() <= NAMES {
-                let names: Option<Vec<Word>> = (0..).zip(places).map(named).collect();
-                names.map(|names| names.into_iter().fold(flags, |word, name| word | name))
-            } else {
-                None
-            };
-            // The first word says that nothing is known.
-            let number = word.and_then(|word| self.words.number(word));
-            numbers[at as usize].store(number.unwrap_or(0), Ordering::Release);
+        // In a crowd names are few: they are for what beams can meet first.
+        let has_wholes = matches!(naming, Naming::Shared(_));
+        // The number of a word that names all of these places, if there is one.
+        let mut number_of = |words: &Words, places: &[u32], flags: Word| {
+            let mut names = [0; size_of::<Word>()];
+            let named = names[..NAMES].get_mut(..places.len())?;
+            for (name, place) in named.iter_mut().zip(places) {
+                *name = self.name(legend, &mut naming, *place)?;
+            }
+            // In whatever order they were found: so there are fewer words.
+            named.sort_unstable();
+            words.number(flags | Word::from_le_bytes(names))
+        };
+        // The first word says that nothing is known.
+        let write = |to: &AtomicU16, number: Option<u16>| {
+            to.store(number.unwrap_or(0), Ordering::Release);
             number.is_some()
         };
         let (mut seen, mut near) = (Kept::builder(), Kept::builder());
         let see = |bin: u32, sight: &Sight<'_>| {
             let Sight { first, all, beyond, joint } = *sight;
+            let at = (shelf * BINS + bin) as usize;
             let flags = if joint { JOINT } else { 0 };
-            let is_named = write(&self.seen, shelf * BINS + bin, first, flags);
+            let whole = self.large.as_ref().filter(|_| joint && has_wholes).and_then(|large| {
+                let number = number_of(&large.whole_words, all, 0)?;
+                let whole = Whole::new(number, beyond, self.surroundings.range);
+                whole.put(&large.wholes[at]);
+                Some(whole)
+            });
+            let is_named = write(&self.seen[at], number_of(&self.words, first, flags));
             // In a small world it is quicker to ask all obstacles.
-            if !is_named || (joint && self.large.is_some()) {
+            if whole.is_none() && (!is_named || (joint && self.large.is_some())) {
                 seen.keep(bin, all, beyond);
             }
         };
@@ -413,7 +442,8 @@ impl Shelf {
             self.surroundings.seen(obstacles, &rect, see);
         }
         self.surroundings.near(obstacles, &rect, |sector, places| {
-            if !write(&self.near, shelf * SECTORS + sector, places, 0) {
+            let at = (shelf * SECTORS + sector) as usize;
+            if !write(&self.near[at], number_of(&self.words, places, 0)) {
                 near.keep(sector, places, f32::INFINITY);
             }
         });
@@ -451,7 +481,9 @@ impl Shelf {
             counts
         };
         let legends = self.large.as_ref().map_or(0, |large| large.legends.bytes());
-        let words = (BINS + SECTORS) as usize * size_of::<u16>();
+        let of_bin = size_of::<u16>() + self.large.as_ref().map_or(0, |_| size_of::<Whole>());
+        let bins = if self.is_for_beams { BINS as usize * of_bin } else { 0 };
+        let words = bins + SECTORS as usize * size_of::<u16>();
         let lists = self.lists.iter().filter_map(OnceLock::get);
         let long: usize = lists.map(|lists| lists.seen.bytes() + lists.near.bytes()).sum();
         Survey {

@@ -1,7 +1,7 @@
 //! Short lists of obstacles: up to seven names in a word, and every word once.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicU16, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU16, AtomicU32, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// Names, lowest bits first, and two flags.
@@ -31,6 +31,49 @@ pub(super) struct Words {
 /// Every word, by number.
 #[derive(Clone, Copy)]
 pub(super) struct AllWords<'a>(&'a [AtomicU64; Words::MOST]);
+
+/// A word's number and a distance: the word names all that a beam can meet before that, also where it
+/// passes walls' ends too closely.
+#[derive(Clone, Copy)]
+pub(super) struct Whole(u32);
+
+impl Whole {
+    /// Parts of a beam's range.
+    const PARTS: f32 = 65_534.0;
+
+    /// The word of this number names all within `beyond` metres, of which it remembers a little less.
+    pub(super) fn new(number: u16, beyond: f32, range: f32) -> Self {
+        let parts =
+            if beyond < range { (beyond / range * Self::PARTS - 1.0) as u16 } else { u16::MAX };
+        Self(u32::from(parts) << u16::BITS | u32::from(number))
+    }
+
+    /// What has been put here, if anything has.
+    pub(super) fn in_place(place: &AtomicU32) -> Option<Self> {
+        match place.load(Ordering::Acquire) {
+            0 => None,
+            bits => Some(Self(bits)),
+        }
+    }
+
+    /// Puts it here.
+    pub(super) fn put(self, place: &AtomicU32) {
+        place.store(self.0, Ordering::Release);
+    }
+
+    /// The word's number.
+    pub(super) fn number(self) -> u16 {
+        self.0 as u16
+    }
+
+    /// No distance to what is not named is computed as less than this, metres.
+    pub(super) fn beyond(self, range: f32) -> f32 {
+        match (self.0 >> u16::BITS) as u16 {
+            u16::MAX => f32::INFINITY,
+            parts => f32::from(parts) / Self::PARTS * range,
+        }
+    }
+}
 
 impl Words {
     /// Numbers of words.
@@ -66,7 +109,39 @@ impl AllWords<'_> {
     #[inline(always)]
     pub(super) fn of(self, number: &AtomicU16) -> Word {
         // Whoever sees a number also sees what it stands for.
-        let number = number.load(Ordering::Acquire);
+        self.of_number(number.load(Ordering::Acquire))
+    }
+
+    /// The word of this number, which was loaded with `Acquire`.
+    #[inline(always)]
+    pub(super) fn of_number(self, number: u16) -> Word {
         self.0[usize::from(number)].load(Ordering::Relaxed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_distance_is_remembered_as_a_little_less(
+            number: u16,
+            range in 0.1_f32..200.0,
+            part in 0.0_f32..1.0,
+        ) {
+            let whole = Whole::new(number, part * range, range);
+            let remembered = whole.beyond(range);
+            prop_assert_eq!(whole.number(), number);
+            prop_assert!(remembered <= part * range);
+            prop_assert!(remembered >= part * range - 1e-4 * range);
+        }
+    }
+
+    #[test]
+    fn nothing_is_nearer_than_what_lies_out_of_range() {
+        assert_eq!(Whole::new(7, 10.0, 10.0).beyond(10.0), f32::INFINITY);
+        assert_eq!(Whole::new(7, f32::INFINITY, 10.0).beyond(10.0), f32::INFINITY);
     }
 }
