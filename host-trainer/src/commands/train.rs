@@ -11,13 +11,14 @@ use super::advice::{counted, in_shell, this_program};
 use super::number::whole;
 use super::setup::{ScenarioOptions, can_draw, problem};
 use super::threads::Threads;
+use crate::champion::shipped::scenes;
 use crate::checkpoint::Checkpoints;
 use crate::failure::{Failure, FailureKind};
 use crate::output::{Output, Progress};
 use crate::problem::Problem;
 use crate::run_folder::manifest::Input;
 use crate::run_folder::{Manifest, Metrics, RunFolder};
-use crate::scenario::{Scenario, Setting, TrainingSpec};
+use crate::scenario::{Preset, Scenario, Setting, TrainingSpec};
 use crate::seed::RunSeed;
 use crate::signals::StopFlag;
 use crate::training::{Snapshot, Training, depends_on_generations};
@@ -146,6 +147,13 @@ impl Run {
         let problem = problem(&args.scenario, args.options.preset, &settings)?;
         // Everything that can be refused is, before a folder exists.
         let beginning = args.from.as_deref().map(Beginning::read).transpose()?;
+        if beginning.is_none() && args.options.preset == Some(Preset::Refine) {
+            return Err(Failure::bad_input(format!(
+                "--preset refine goes on from a champion; expected --from with a weight blob, a run folder, or \
+                 the scene of a shipped champion: {}",
+                scenes()
+            )));
+        }
         if let Some(beginning) = &beginning {
             beginning.check(&problem, output)?;
         }

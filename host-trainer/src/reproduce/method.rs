@@ -64,10 +64,10 @@ pub fn all() -> Vec<Method> {
     std::iter::once(PAPER).chain(ADVICE).chain(beside).collect()
 }
 
-/// Whether it learns a scene to drive in it, as the paper asks: a generalist learns elsewhere, and a
-/// search for novelty is for the one way through a maze.
+/// Whether it learns a scene to drive in it, as the paper asks: a refinement begins with what has been
+/// learnt, a generalist learns elsewhere, and a search for novelty is for the one way through a maze.
 fn learns_to_drive(preset: Preset) -> bool {
-    !matches!(preset, Preset::Paper | Preset::Generalist | Preset::Novelty)
+    !matches!(preset, Preset::Paper | Preset::Refine | Preset::Generalist | Preset::Novelty)
 }
 
 /// The method of this name, if there is one.

@@ -18,7 +18,10 @@ pub enum Preset {
     Paper,
     /// Drives clean where it has never been: more pairs, other costs, another mutation.
     Robust,
-    /// The same in many random worlds: one controller for places that nobody has described.
+    /// Goes on from a champion that the one above has trained: small changes, and half of the drives
+    /// under stress.
+    Refine,
+    /// `Robust` in many random worlds: one controller for places that nobody has described.
     Generalist,
     /// Searches for what nobody has done yet, until a target is reached: for mazes.
     Novelty,
@@ -26,13 +29,15 @@ pub enum Preset {
 
 impl Preset {
     /// Every preset, in the order they are listed to people.
-    pub const ALL: [Self; 4] = [Self::Paper, Self::Robust, Self::Generalist, Self::Novelty];
+    pub const ALL: [Self; 5] =
+        [Self::Paper, Self::Robust, Self::Refine, Self::Generalist, Self::Novelty];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
             Self::Robust => "robust",
+            Self::Refine => "refine",
             Self::Generalist => "generalist",
             Self::Novelty => "novelty",
         }
@@ -44,6 +49,7 @@ impl Preset {
         match self {
             Self::Paper => &[],
             Self::Robust => &[include_str!("robust.toml")],
+            Self::Refine => &[include_str!("robust.toml"), include_str!("refine.toml")],
             Self::Generalist => &[include_str!("robust.toml"), include_str!("generalist.toml")],
             Self::Novelty => &[include_str!("novelty.toml")],
         }

@@ -94,6 +94,17 @@ fn a_run_goes_on_only_with_the_champion_that_it_began_with() {
     assert!(bench.results("run")["manifest.toml"] == before);
 }
 
+#[test]
+fn a_refinement_has_to_begin_with_a_champion() {
+    let bench = Bench::new();
+    let done = train(&bench, "run", 2, &["--preset=refine"]).ends_in(2);
+    assert!(
+        done.stderr.starts_with("error: --preset refine goes on from a champion; expected --from ")
+    );
+    assert!(!bench.path("run").exists());
+    train(&bench, "run", 2, &["--preset=refine", "--from=complex"]).ends_in(0);
+}
+
 /// A file of that name has to be called `./depot`.
 #[test]
 fn a_shipped_champion_is_named_by_its_scene_and_its_other_car_is_told() {
