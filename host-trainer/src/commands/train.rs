@@ -11,7 +11,6 @@ use super::advice::{counted, in_shell, this_program};
 use super::number::whole;
 use super::setup::{ScenarioOptions, can_draw, problem};
 use super::threads::Threads;
-use crate::champion::shipped::scenes;
 use crate::checkpoint::Checkpoints;
 use crate::failure::{Failure, FailureKind};
 use crate::output::{Output, Progress};
@@ -146,14 +145,11 @@ impl Run {
         }
         let problem = problem(&args.scenario, args.options.preset, &settings)?;
         // Everything that can be refused is, before a folder exists.
-        let beginning = args.from.as_deref().map(Beginning::read).transpose()?;
-        if beginning.is_none() && args.options.preset == Some(Preset::Refine) {
-            return Err(Failure::bad_input(format!(
-                "--preset refine goes on from a champion; expected --from with a weight blob, a run folder, or \
-                 the scene of a shipped champion: {}",
-                scenes()
-            )));
-        }
+        let beginning = match &args.from {
+            Some(path) => Some(Beginning::read(path)?),
+            None if args.options.preset == Some(Preset::Refine) => return Err(beginning::missing()),
+            None => None,
+        };
         if let Some(beginning) = &beginning {
             beginning.check(&problem, output)?;
         }

@@ -12,6 +12,19 @@ use crate::scenario::words_of;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+/// What `--from` may name, as messages say it.
+fn what_it_names() -> String {
+    format!("a weight blob, a run folder, or the scene of a shipped champion: {}", scenes())
+}
+
+/// Why a refinement without `--from` is refused.
+pub(super) fn missing() -> Failure {
+    Failure::bad_input(format!(
+        "--preset refine goes on from a champion; expected --from with {}",
+        what_it_names()
+    ))
+}
+
 /// Such a champion, read and checked.
 pub(super) struct Beginning {
     champion: BlobFile,
@@ -30,10 +43,9 @@ impl Beginning {
             Some(shipped) => shipped.file(),
             None if !path.exists() => {
                 return Err(Failure::bad_input(format!(
-                    "--from {}: no such file; expected a weight blob, a run folder, or the scene of a \
-                     shipped champion: {}",
+                    "--from {}: no such file; expected {}",
                     path.display(),
-                    scenes()
+                    what_it_names()
                 )));
             }
             None => BlobFile::read_as("--from", path)?,
