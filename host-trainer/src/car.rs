@@ -5,7 +5,7 @@ mod model;
 
 use crate::scenario::{Scenario, StepLength, VehicleSpec};
 use crate::seed::Stream;
-use crate::world::{Lookout, World, distance};
+use crate::world::{Glance, Lookout, World, distance};
 use controller_core::actuator::Actuator;
 use controller_core::control_loop::{Actuate, Sense};
 use controller_core::controller::{Command, Scaling};
@@ -114,9 +114,9 @@ impl<'a> SimulatedCar<'a> {
     }
 
     fn hits(&self) -> [Hit<f32>; BEAMS] {
-        let fan = self.model.fan();
-        let rays = fan.rays(&self.pose);
-        let [walls] = self.lookout.distances::<f32, 1, BEAMS>(fan, &[self.pose], &[rays], &[1]);
+        let mut glance = Glance::<f32, 1, BEAMS>::default();
+        self.lookout.look(self.model.fan(), &[self.pose], &[1], &mut glance);
+        let Glance { rays: [rays], distances: [walls], .. } = glance;
         std::array::from_fn(|beam| self.model.hit(walls[beam], rays[beam].to_disc(&self.target)))
     }
 }

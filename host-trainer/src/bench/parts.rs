@@ -8,7 +8,7 @@ use crate::problem::{Problem, training_drive};
 use crate::seed::RunSeed;
 use crate::vector::{Instructions, Kernel, Slots, Vector, Weight};
 use crate::wide::SLOTS;
-use crate::world::{Fan, Lookout};
+use crate::world::{Fan, Glance, Lookout};
 use controller_core::activation::Rational;
 use controller_core::geometry::Body;
 use controller_core::motion::Pose;
@@ -46,16 +46,11 @@ pub fn look(lookout: &Lookout, fan: &Fan, poses: &[Pose<f32>], set: Instructions
         #[inline(always)]
         fn run<V: Vector>(self) {
             let Self(lookout, fan, poses) = self;
+            let mut glance = Glance::<V, SLOTS, { SLOTS * BEAMS }>::default();
             for poses in poses.chunks_exact(SLOTS * V::WIDTH) {
                 let poses = side_by_side::<V>(black_box(poses));
-                let mut rays = [fan.rays(&poses[0]); SLOTS];
-                for (rays, pose) in rays.iter_mut().zip(&poses).skip(1) {
-                    *rays = fan.rays(pose);
-                }
-                let live = [u32::MAX; SLOTS];
-                black_box(
-                    lookout.distances::<V, SLOTS, { SLOTS * BEAMS }>(fan, &poses, &rays, &live),
-                );
+                lookout.look(fan, &poses, &[u32::MAX; SLOTS], &mut glance);
+                black_box(&glance.distances);
             }
         }
     }
@@ -64,7 +59,9 @@ pub fn look(lookout: &Lookout, fan: &Fan, poses: &[Pose<f32>], set: Instructions
 
 /// How far the beams of a car at this pose reach, metres.
 pub fn distances(lookout: &Lookout, fan: &Fan, pose: &Pose<f32>) -> [f32; BEAMS] {
-    let [distances] = lookout.distances::<f32, 1, BEAMS>(fan, &[*pose], &[fan.rays(pose)], &[1]);
+    let mut glance = Glance::<f32, 1, BEAMS>::default();
+    lookout.look(fan, &[*pose], &[1], &mut glance);
+    let [distances] = glance.distances;
     distances
 }
 

@@ -54,9 +54,10 @@ impl<V: Lane, const K: usize> From<f32> for Slots<V, K> {
 impl<V: Lane, const K: usize, const SETS: usize> From<Weight<V, SETS>> for Slots<V, K> {
     #[inline(always)]
     fn from(weight: Weight<V, SETS>) -> Self {
+        const { assert!(SETS == 1 || SETS >= K, "one for all, or one for each") };
         let mut all = [weight.0[0]; K];
-        for (slot, one) in all.iter_mut().enumerate() {
-            *one = weight.0[slot * SETS / K];
+        if SETS > 1 {
+            all.copy_from_slice(&weight.0[..K]);
         }
         Self(all)
     }

@@ -8,6 +8,7 @@ use super::{Done, Fleet, SLOTS, Tally};
 use crate::car::CarModel;
 use crate::episode::{Outcome, start_pose};
 use crate::vector::{Vector, ones};
+use crate::world::Glance;
 use controller_core::observation::BEAMS;
 
 /// Once one in so many of all cars' control periods was waited for the rest of a lane, each car is
@@ -21,6 +22,7 @@ pub(super) struct Block<'a, V> {
     queue: &'a Queue<'a>,
     networks: Networks<V>,
     cars: [Cars<'a, V>; SLOTS],
+    glance: Glance<V, SLOTS, { SLOTS * BEAMS }>,
     /// Of each lane and slot: whose weights its car has.
     individuals: Vec<[Option<usize>; SLOTS]>,
     /// Of each lane and slot.
@@ -60,6 +62,7 @@ impl<'a, V: Vector> Block<'a, V> {
             queue,
             networks: Networks::new(problem.topology(), problem.activation()),
             cars: [(); SLOTS].map(|()| cars()),
+            glance: Glance::default(),
             individuals: vec![[None; SLOTS]; V::WIDTH],
             drives: (0..V::WIDTH).map(|_| Default::default()).collect(),
             clock: 0,
@@ -213,7 +216,6 @@ impl<'a, V: Vector> Block<'a, V> {
         let (model, world, scaling) = (problem.model(), &problem.world, problem.scaling());
         let (lookout, fan) = (problem.lookout(), model.fan());
         let mut poses = [self.cars[0].pose; SLOTS];
-        let mut rays = [fan.rays(&poses[0]); SLOTS];
         let mut live = [0; SLOTS];
         for slot in 0..SLOTS {
             live[slot] = self.cars[slot].live;
@@ -221,25 +223,26 @@ impl<'a, V: Vector> Block<'a, V> {
                 continue;
             }
             poses[slot] = self.cars[slot].pose;
-            rays[slot] = fan.rays(&poses[slot]);
             if model.is_disturbed() {
                 // Long before it is used: numbers written one by one take a while until they can
                 // be read as a vector.
                 self.cars[slot].misread(model);
             }
         }
-        let walls = lookout.distances::<V, SLOTS, { SLOTS * BEAMS }>(fan, &poses, &rays, &live);
+        lookout.look(fan, &poses, &live, &mut self.glance);
         for slot in 0..SLOTS {
             if live[slot] == 0 {
                 continue;
             }
-            let sight = self.cars[slot].sense(model, &rays[slot], &walls[slot]);
+            let Glance { rays, distances, .. } = &self.glance;
+            let sight = self.cars[slot].sense(model, &rays[slot], &distances[slot]);
             let inputs = scaling.encoding.inputs(&sight, scaling.range);
             for (all, input) in self.networks.inputs.iter_mut().zip(inputs) {
                 all.0[slot] = input;
             }
         }
-        self.networks.step();
+        let slots = live.iter().rposition(|live| *live != 0).map_or(0, |last| last + 1);
+        self.networks.step(slots);
         self.clock += 1;
         let [steer, speed] = self.networks.outputs;
         let has_speed = problem.topology().outputs == 2;

@@ -114,10 +114,11 @@ impl<V: Vector> Networks<V> {
         hidden
     }
 
-    /// One step of all networks.
+    /// One step of the networks of the first so many slots, at least; of the others, outputs and memory
+    /// are anything afterwards.
     #[inline(always)]
-    pub(super) fn step(&mut self) {
-        self.memory.step(&self.weights, &self.inputs, &mut self.outputs);
+    pub(super) fn step(&mut self, slots: usize) {
+        self.memory.step(slots, &self.weights, &self.inputs, &mut self.outputs);
     }
 }
 
@@ -142,8 +143,14 @@ fn load<V: Vector, const SETS: usize>(
 
 /// The hidden outputs of all cars' networks, whatever their sizes.
 trait Memory<V> {
-    /// One step of all networks.
-    fn step(&mut self, weights: &Weights<V>, inputs: &[All<V>; INPUTS], outputs: &mut [All<V>]);
+    /// One step of the networks of the first so many slots, at least.
+    fn step(
+        &mut self,
+        slots: usize,
+        weights: &Weights<V>,
+        inputs: &[All<V>; INPUTS],
+        outputs: &mut [All<V>],
+    );
 
     /// Shows every hidden output, first layer then second.
     fn visit(&mut self, look: &mut dyn FnMut(&mut All<V>));
@@ -168,10 +175,22 @@ struct Sized<V, R, const H: usize, const O: usize> {
 }
 
 impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Memory<V> for Sized<V, R, H, O> {
-    fn step(&mut self, weights: &Weights<V>, inputs: &[All<V>; INPUTS], outputs: &mut [All<V>]) {
-        match weights {
-            Weights::OfLanes(weights) => self.step_with(weights, inputs, outputs),
-            Weights::OfCars(weights) => self.step_with(weights, inputs, outputs),
+    fn step(
+        &mut self,
+        slots: usize,
+        weights: &Weights<V>,
+        inputs: &[All<V>; INPUTS],
+        outputs: &mut [All<V>],
+    ) {
+        match (weights, slots) {
+            (Weights::OfLanes(weights), _) => self.step_with::<1, SLOTS>(weights, inputs, outputs),
+            (Weights::OfCars(weights), 0..=1) => {
+                self.step_with::<SLOTS, 1>(weights, inputs, outputs)
+            }
+            (Weights::OfCars(weights), 2) => self.step_with::<SLOTS, 2>(weights, inputs, outputs),
+            (Weights::OfCars(weights), _) => {
+                self.step_with::<SLOTS, SLOTS>(weights, inputs, outputs);
+            }
         }
     }
 
@@ -182,7 +201,7 @@ impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Memory<V> for Siz
 }
 
 impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Sized<V, R, H, O> {
-    fn step_with<const SETS: usize>(
+    fn step_with<const SETS: usize, const K: usize>(
         &mut self,
         weights: &[Weight<V, SETS>],
         inputs: &[All<V>; INPUTS],
@@ -191,12 +210,20 @@ impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Sized<V, R, H, O>
         let network = Network::<R, Weight<V, SETS>, INPUTS, H, O>::new(weights, self.biases);
         let network = network.expect("as many weights as the topology has");
         let (state, activation) = (&mut self.state, self.activation);
-        V::apart(Step { network, state, activation, inputs, outputs });
+        V::apart(Step::<V, R, SETS, K, H, O> { network, state, activation, inputs, outputs });
     }
 }
 
-/// One step, to be compiled for the vectors' instructions.
-struct Step<'a, V: Vector, R: Recurrence, const SETS: usize, const H: usize, const O: usize> {
+/// One step of the networks in the first `K` slots, to be compiled for the vectors' instructions.
+struct Step<
+    'a,
+    V: Vector,
+    R: Recurrence,
+    const SETS: usize,
+    const K: usize,
+    const H: usize,
+    const O: usize,
+> {
     network: Network<'a, R, Weight<V, SETS>, INPUTS, H, O>,
     state: &'a mut State<All<V>, H>,
     activation: ActivationKind,
@@ -204,19 +231,34 @@ struct Step<'a, V: Vector, R: Recurrence, const SETS: usize, const H: usize, con
     outputs: &'a mut [All<V>],
 }
 
-impl<V: Vector, R: Recurrence, const SETS: usize, const H: usize, const O: usize> Part<V>
-    for Step<'_, V, R, SETS, H, O>
+/// Neurons worked on at a time, of few slots: what one of them waits for, the others' sums fill.
+const OF_FEW: usize = 4;
+
+impl<V: Vector, R: Recurrence, const SETS: usize, const K: usize, const H: usize, const O: usize>
+    Part<V> for Step<'_, V, R, SETS, K, H, O>
 {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
         let Self { network, state, activation, inputs, outputs } = self;
-        // One neuron of all slots at a time: its sums fit the registers of every CPU, and the next
-        // neuron's fill the time that its division takes.
-        let answer = network.step_by::<1, _>(activation, state, inputs);
-        for (output, answer) in outputs.iter_mut().zip(answer) {
-            *output = answer;
+        if K == SLOTS {
+            // One neuron of all slots at a time: its sums fit the registers of every CPU, and the next
+            // neuron's fill the time that its division takes.
+            let answer = network.step_by::<1, _>(activation, state, inputs);
+            for (output, answer) in outputs.iter_mut().zip(answer) {
+                *output = answer;
+            }
+            return;
+        }
+        let first = |all: &All<V>| Slots(*all.0.first_chunk::<K>().expect("no more than all"));
+        let State { first: one, second: two } = &*state;
+        let mut few = State { first: one.each_ref().map(first), second: two.each_ref().map(first) };
+        let answer =
+            network.step_by::<OF_FEW, _>(activation, &mut few, &inputs.each_ref().map(first));
+        let all = state.first.iter_mut().chain(&mut state.second).chain(outputs);
+        for (all, few) in all.zip(few.first.iter().chain(&few.second).chain(&answer)) {
+            all.0[..K].copy_from_slice(&few.0);
         }
     }
 }

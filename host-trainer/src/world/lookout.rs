@@ -15,6 +15,7 @@
 //! | look in | for |
 //! | --- | --- |
 //! | `fan` | the beams of a car |
+//! | `glance` | what many cars see at once |
 //! | `grid` | which cell, which part of a turn |
 //! | `beams` | the tests, many beams side by side |
 //! | `shelf` | what is found once for each cell |
@@ -32,6 +33,7 @@ mod cone;
 mod discs;
 mod fan;
 mod field;
+mod glance;
 mod grid;
 mod kept;
 mod legends;
@@ -44,7 +46,7 @@ mod words;
 use super::obstacles::Obstacles;
 use crate::vector::Vector;
 use asked::Asked;
-use beams::Beams;
+use beams::Met;
 use cell::{BINS, SECTORS};
 use controller_core::geometry::{Body, Disc, Ray, Segment};
 use controller_core::motion::Pose;
@@ -56,6 +58,7 @@ use shelf::{Question, Shelf, Sure};
 use std::sync::Arc;
 
 pub use fan::Fan;
+pub use glance::Glance;
 pub use grid::Cells;
 pub use shelf::Survey;
 
@@ -84,78 +87,71 @@ impl Lookout {
         Self { slack: shelf.slack(), obstacles, range, largest, grid, shelf, field }
     }
 
-    /// How far the beams of cars at these poses go, metres: the distance to the nearest obstacle, or
-    /// infinity if there is none within range. `rays` are those that the fan has there. Lanes whose
-    /// bit in `live` is not set hold anything.
+    /// What cars at these poses see. Lanes whose bit in `live` is not set see anything.
     ///
     /// A pose's heading, cosine and sine must belong together, as they do in every pose made by
     /// [`Pose::new`] and [`Pose::driven`].
     #[inline(always)]
-    pub fn distances<V: Vector, const N: usize, const Q: usize>(
+    pub fn look<V: Vector, const N: usize, const Q: usize>(
         &self,
         fan: &Fan,
         poses: &[Pose<V>; N],
-        rays: &[[Ray<V>; BEAMS]; N],
         live: &[u32; N],
-    ) -> [[V; BEAMS]; N] {
-        const { assert!(Q == N * BEAMS) };
+        glance: &mut Glance<V, N, Q>,
+    ) {
+        let Glance { rays, distances, bins, met, asked } = glance;
+        let cars = || (0..N).filter(|car| live[*car] != 0);
         if let Some(field) = &self.field {
-            return field.distances(&self.obstacles, rays, live);
+            for car in cars() {
+                fan.cast(&poses[car], &mut rays[car]);
+            }
+            field.distances(&self.obstacles, rays, live, distances);
+            return;
         }
         // First where everything lies that is to be loaded, then loading it, then everything that is
         // to be computed: so the CPU never waits for the one to begin the other.
-        let mut asked = Asked::<Q>::new();
-        let mut bins = [[V::from(0.0); BEAMS]; N];
-        let mut beams = [[Beams::new(rays[0][0]); BEAMS]; N];
-        for car in 0..N {
-            if live[car] == 0 {
-                continue;
-            }
+        for car in cars() {
+            fan.cast(&poses[car], &mut rays[car]);
             let mut shelves = self.shelf.shelves(self.grid.locate(rays[car][0].origin));
             for beam in 0..BEAMS {
                 if beam > 0 && !fan.has_one_origin() {
                     shelves = self.shelf.shelves(self.grid.locate(rays[car][beam].origin));
                 }
                 let bin = part_of_turn::<V, BINS>(fan.angle(beam, &poses[car]));
-                self.shelf.ask_seen(&mut asked, car * BEAMS + beam, &shelves, bin);
+                self.shelf.ask_seen(asked, car * BEAMS + beam, &shelves, bin);
                 // What the beams between them ask for mostly lies in the same lines of the cache.
                 if beam % 2 == 0 {
-                    self.shelf.fetch_seen::<V, Q>(&asked, car * BEAMS + beam);
+                    self.shelf.fetch_seen::<V, Q>(asked, car * BEAMS + beam);
                 }
                 bins[car][beam] = bin;
-                beams[car][beam] = Beams::new(rays[car][beam]);
+                met[car][beam] = Met::nothing();
             }
         }
-        self.shelf.answer_seen::<V, Q>(&mut asked, live);
-        let all = beams.as_flattened_mut();
+        self.shelf.answer_seen::<V, Q>(asked, live);
+        let (rays, met) = (rays.as_flattened(), met.as_flattened_mut());
         for round in 0..Asked::<Q>::ROUNDS {
             for index in asked.with_name(round) {
-                let rows = self.shelf.edges(&asked, index, round);
+                let rows = self.shelf.edges(asked, index, round);
                 if self.shelf.has_discs() {
-                    all[index].any(rows);
+                    met[index].any(&rays[index], rows);
                 } else {
-                    all[index].wall(rows);
+                    met[index].wall(&rays[index], rows);
                 }
             }
         }
-        let mut distances = [[V::from(f32::INFINITY); BEAMS]; N];
-        for car in 0..N {
-            if live[car] == 0 {
-                continue;
-            }
+        for car in cars() {
             for beam in 0..BEAMS {
-                let (question, met) = (car * BEAMS + beam, &beams[car][beam]);
-                let distance = &mut distances[car][beam];
+                let question = car * BEAMS + beam;
+                let (met, distance) = (&met[question], &mut distances[car][beam]);
                 *distance = met.nearest(self.range);
                 let doubtful = V::bits(met.doubtful(self.slack));
                 let mut open = (asked.unknown::<V>(question) | doubtful) & live[car];
                 if open != 0 {
                     open &= asked.unsure::<V>(question);
-                    self.settle(&rays[car][beam], bins[car][beam], open, distance);
+                    self.settle(&rays[question], bins[car][beam], open, distance);
                 }
             }
         }
-        distances
     }
 
     /// Which of the bodies at these poses touch an obstacle's edge, or lie inside a disc, as
@@ -227,17 +223,17 @@ impl Lookout {
     }
 
     fn settled(&self, ray: &Ray<f32>, cell: u32, bin: u32) -> f32 {
-        let mut beams = Beams::<f32>::new(*ray);
+        let mut met = Met::<f32>::nothing();
         let question = Question::Seen(bin);
         let sure = self.shelf.each(&self.grid, &self.obstacles, cell, question, |row| {
-            beams.any(*row);
+            met.any(ray, *row);
         });
         let mut reach = self.range;
         if let Some(sure) = sure {
-            let nearest = beams.nearest(self.range);
+            let nearest = met.nearest(self.range);
             let is_sure = match sure {
                 Sure::Within(beyond) => nearest.min(self.range) <= beyond,
-                Sure::UnlessDoubtful => !beams.doubtful(self.slack),
+                Sure::UnlessDoubtful => !met.doubtful(self.slack),
             };
             if is_sure {
                 return nearest;
@@ -245,7 +241,7 @@ impl Lookout {
             // What was left out and is computed as nearer is met before this.
             reach = reach.min(nearest + 2.0 * MOST_ERROR as f32);
         }
-        let distance = self.obstacles.distance(ray, reach).min(beams.nearest(self.range));
+        let distance = self.obstacles.distance(ray, reach).min(met.nearest(self.range));
         if distance <= self.range { distance } else { f32::INFINITY }
     }
 

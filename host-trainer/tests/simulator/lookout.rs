@@ -7,7 +7,7 @@ use controller_core::motion::Pose;
 use controller_core::observation::{BEAMS, BeamMount};
 use host_trainer::car::body_of;
 use host_trainer::seed::Stream;
-use host_trainer::world::{Cells, Fan, Lookout, Obstacles};
+use host_trainer::world::{Cells, Fan, Glance, Lookout, Obstacles};
 use proptest::prelude::*;
 use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
@@ -93,8 +93,9 @@ impl Pair {
     }
 
     fn look(&self, pose: &Pose<f32>) -> [f32; BEAMS] {
-        let rays = self.fan.rays(pose);
-        let [seen] = self.lookout.distances::<f32, 1, BEAMS>(&self.fan, &[*pose], &[rays], &[1]);
+        let mut glance = Glance::<f32, 1, BEAMS>::default();
+        self.lookout.look(&self.fan, &[*pose], &[1], &mut glance);
+        let [seen] = glance.distances;
         seen
     }
 

@@ -59,7 +59,7 @@ impl<const N: usize> Asked<N> {
     }
 
     /// Writes down the words of all questions. They go by car, as many for each; those of a car without
-    /// a lane in `live` are left out.
+    /// a lane in `live` have no names.
     #[inline(always)]
     pub(super) fn answer<V: Vector>(
         &mut self,
@@ -69,6 +69,7 @@ impl<const N: usize> Asked<N> {
     ) {
         for question in 0..N {
             if live[question * live.len() / N] == 0 {
+                self.any[question] = 0;
                 continue;
             }
             let (places, slots) = (&self.places[question], &mut self.words[question]);

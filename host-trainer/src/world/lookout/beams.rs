@@ -49,26 +49,25 @@ pub(super) fn in_lane<V: Vector>(ray: &Ray<V>, lane: usize) -> Ray<f32> {
     Ray { origin: at(ray.origin), direction: at(ray.direction) }
 }
 
-/// Beams, and what they have met so far.
+/// What beams have met so far.
 #[derive(Clone, Copy)]
-pub(super) struct Beams<V> {
-    ray: Ray<V>,
+pub(super) struct Met<V> {
     near: V,
     past: V,
 }
 
-impl<V: Vector> Beams<V> {
-    /// Nothing met yet.
+impl<V: Vector> Met<V> {
+    /// Nothing yet.
     #[inline(always)]
-    pub(super) fn new(ray: Ray<V>) -> Self {
+    pub(super) fn nothing() -> Self {
         let nothing = V::from(f32::INFINITY);
-        Self { ray, near: nothing, past: nothing }
+        Self { near: nothing, past: nothing }
     }
 
-    /// Something met already, so far away.
+    /// Something, so far away.
     #[inline(always)]
-    pub(super) fn met(ray: Ray<V>, near: V) -> Self {
-        Self { near, ..Self::new(ray) }
+    pub(super) fn something(near: V) -> Self {
+        Self { near, ..Self::nothing() }
     }
 
     /// Tests a wall for each beam.
@@ -78,51 +77,22 @@ impl<V: Vector> Beams<V> {
     /// `den` = 0 needs no test of its own, since the quotient is then infinite or NaN, which no
     /// minimum takes.
     #[inline(always)]
-    pub(super) fn wall(&mut self, [x, y, ex, ey]: [V; 4]) {
-        let (distance, inside) = self.wall_ahead([x, y, ex, ey]);
+    pub(super) fn wall(&mut self, ray: &Ray<V>, row: [V; 4]) {
+        let (distance, inside) = wall_ahead(ray, row);
         self.near = distance.min(self.near);
         self.past = inside.abs().min(self.past);
     }
 
     /// Tests a wall or a disc for each beam.
     #[inline(always)]
-    pub(super) fn any(&mut self, row: [V; 4]) {
+    pub(super) fn any(&mut self, ray: &Ray<V>, row: [V; 4]) {
         let is_disc = are_discs(&row);
-        let (distance, inside) = self.wall_ahead(row);
-        let (to_disc, inside_disc) = self.disc_ahead(row);
+        let (distance, inside) = wall_ahead(ray, row);
+        let (to_disc, inside_disc) = disc_ahead(ray, row);
         let distance = V::select(is_disc, to_disc, distance);
         let inside = V::select(is_disc, inside_disc, inside);
         self.near = distance.min(self.near);
         self.past = inside.abs().min(self.past);
-    }
-
-    /// Distance to a wall, and how far inside of its nearer end the beam's line passes, metres;
-    /// negative outside.
-    #[inline(always)]
-    fn wall_ahead(&self, [x, y, ex, ey]: [V; 4]) -> (V, V) {
-        let zero = V::from(0.0);
-        let (dx, dy) = self.ray.direction;
-        let wx = x - self.ray.origin.0;
-        let wy = y - self.ray.origin.1;
-        let den = dx * ey - dy * ex;
-        let along = wx * dy - wy * dx;
-        let ahead = wx * ey - wy * ex;
-        let flip = den.lt(zero);
-        let den_size = den.abs();
-        let along = V::select(flip, -along, along);
-        let ahead = V::select(flip, -ahead, ahead);
-        let inside = (den_size - along).min(along);
-        let hit = zero.le(ahead.min(inside));
-        (V::select(hit, ahead / den_size, V::from(f32::INFINITY)), inside)
-    }
-
-    /// The same of a disc's edge.
-    #[inline(always)]
-    fn disc_ahead(&self, [x, y, radius, _]: [V; 4]) -> (V, V) {
-        let (dx, dy) = self.ray.direction;
-        let aside = (x - self.ray.origin.0) * dy - (y - self.ray.origin.1) * dx;
-        let disc = Disc { centre: (x, y), radius };
-        (self.ray.to_disc(&disc), radius - aside.abs())
     }
 
     /// Distance to the nearest obstacle, metres; infinity where there is none within the range.
@@ -144,4 +114,33 @@ impl<V: Vector> Beams<V> {
     pub(super) fn doubtful(&self, slack: f32) -> V::Mask {
         self.past.le(V::from(slack))
     }
+}
+
+/// Distance to a wall, and how far inside of its nearer end the beam's line passes, metres;
+/// negative outside.
+#[inline(always)]
+fn wall_ahead<V: Vector>(ray: &Ray<V>, [x, y, ex, ey]: [V; 4]) -> (V, V) {
+    let zero = V::from(0.0);
+    let (dx, dy) = ray.direction;
+    let wx = x - ray.origin.0;
+    let wy = y - ray.origin.1;
+    let den = dx * ey - dy * ex;
+    let along = wx * dy - wy * dx;
+    let ahead = wx * ey - wy * ex;
+    let flip = den.lt(zero);
+    let den_size = den.abs();
+    let along = V::select(flip, -along, along);
+    let ahead = V::select(flip, -ahead, ahead);
+    let inside = (den_size - along).min(along);
+    let hit = zero.le(ahead.min(inside));
+    (V::select(hit, ahead / den_size, V::from(f32::INFINITY)), inside)
+}
+
+/// The same of a disc's edge.
+#[inline(always)]
+fn disc_ahead<V: Vector>(ray: &Ray<V>, [x, y, radius, _]: [V; 4]) -> (V, V) {
+    let (dx, dy) = ray.direction;
+    let aside = (x - ray.origin.0) * dy - (y - ray.origin.1) * dx;
+    let disc = Disc { centre: (x, y), radius };
+    (ray.to_disc(&disc), radius - aside.abs())
 }

@@ -52,23 +52,35 @@ impl Fan {
     }
 
     /// The beams of cars at these poses, rightmost first.
-    #[inline(always)]
     pub fn rays<L: Lane>(&self, pose: &Pose<L>) -> [Ray<L>; BEAMS] {
-        let mut rays = [self.beams[0].ray(pose); BEAMS];
-        for (slot, beam) in rays.iter_mut().zip(&self.beams).skip(1) {
-            *slot = beam.ray(pose);
-        }
+        let zero = (L::from(0.0), L::from(0.0));
+        let mut rays = [Ray { origin: zero, direction: zero }; BEAMS];
+        self.cast(pose, &mut rays);
         rays
+    }
+
+    /// The same, in place.
+    #[inline(always)]
+    pub(super) fn cast<L: Lane>(&self, pose: &Pose<L>, rays: &mut [Ray<L>; BEAMS]) {
+        let mut origin = self.beams[0].origin(pose);
+        for (ray, beam) in rays.iter_mut().zip(&self.beams) {
+            if !self.has_one_origin {
+                origin = beam.origin(pose);
+            }
+            *ray = Ray { origin, direction: beam.direction(pose) };
+        }
     }
 }
 
 impl Beam {
     #[inline(always)]
-    fn ray<L: Lane>(&self, pose: &Pose<L>) -> Ray<L> {
+    fn origin<L: Lane>(&self, pose: &Pose<L>) -> (L, L) {
+        pose.to_world(L::from(self.mount.x), L::from(self.mount.y))
+    }
+
+    #[inline(always)]
+    fn direction<L: Lane>(&self, pose: &Pose<L>) -> (L, L) {
         let (cos, sin) = (L::from(self.cos), L::from(self.sin));
-        Ray {
-            origin: pose.to_world(L::from(self.mount.x), L::from(self.mount.y)),
-            direction: (pose.cos * cos - pose.sin * sin, pose.sin * cos + pose.cos * sin),
-        }
+        (pose.cos * cos - pose.sin * sin, pose.sin * cos + pose.cos * sin)
     }
 }

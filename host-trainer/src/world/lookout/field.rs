@@ -16,7 +16,7 @@
 
 mod tile;
 
-use super::beams::{self, Beams, NOTHING, Row};
+use super::beams::{self, Met, NOTHING, Row};
 use super::grid::Grid;
 use crate::vector::{MOST_LANES, RowOfLane, Vector, ones};
 use crate::world::Obstacles;
@@ -136,9 +136,9 @@ impl Field {
         obstacles: &Obstacles,
         rays: &[[Ray<V>; BEAMS]; N],
         live: &[u32; N],
-    ) -> [[V; BEAMS]; N] {
-        let infinity = V::from(f32::INFINITY);
-        let mut distances = [[infinity; BEAMS]; N];
+        distances: &mut [[V; BEAMS]; N],
+    ) {
+        distances.as_flattened_mut().fill(V::from(f32::INFINITY));
         let begun = self.long_ahead(rays);
         let mut walks = [Walk::<V>::new(); WALKS];
         let mut next = 0;
@@ -146,7 +146,7 @@ impl Field {
             for walk in &mut walks {
                 // Beams that have ended make way for others.
                 for lane in ones(walk.ended) {
-                    walk.hand_in(lane, self.range, &mut distances);
+                    walk.hand_in(lane, self.range, distances);
                     while next < N * BEAMS * V::WIDTH {
                         let beam = next;
                         next += 1;
@@ -169,8 +169,7 @@ impl Field {
                 self.look_around(obstacles, walk);
             }
         }
-        self.find_from_outside(obstacles, rays, live, &mut distances);
-        distances
+        self.find_from_outside(obstacles, rays, live, distances);
     }
 
     /// Lets the beams go as far as nothing is close by.
@@ -199,16 +198,16 @@ impl Field {
         let close = V::bits(is_close);
         if close != 0 {
             let close_by = self.close_by(column, row, close);
-            let mut beams = Beams::met(walk.ray, walk.near);
+            let mut met = Met::something(walk.near);
             for round in 0..close_by.longest {
                 let rows = V::rows(CloseInRound { lists: &close_by.lists, round });
                 if self.has_discs {
-                    beams.any(rows);
+                    met.any(&walk.ray, rows);
                 } else {
-                    beams.wall(rows);
+                    met.wall(&walk.ray, rows);
                 }
             }
-            walk.near = V::select(is_close, beams.near(), walk.near);
+            walk.near = V::select(is_close, met.near(), walk.near);
             // To the edge of the square that the list covers.
             let half = V::from(0.5 * self.grid.side() as f32 + CLOSE);
             let centre = self.grid.centre(column, row);
@@ -239,9 +238,9 @@ impl Field {
             let [x, y, ex, ey] = *row;
             for car in 0..N {
                 for beam in 0..BEAMS {
-                    let mut beams = Beams::met(rays[car][beam], ahead[car][beam]);
-                    beams.wall([V::from(x), V::from(y), V::from(ex), V::from(ey)]);
-                    ahead[car][beam] = beams.near();
+                    let mut met = Met::something(ahead[car][beam]);
+                    met.wall(&rays[car][beam], [V::from(x), V::from(y), V::from(ex), V::from(ey)]);
+                    ahead[car][beam] = met.near();
                 }
             }
         }

@@ -1,0 +1,37 @@
+//! What many cars see at once, and what is written down until they do.
+
+use super::asked::Asked;
+use super::beams::Met;
+use crate::vector::Vector;
+use controller_core::geometry::Ray;
+use controller_core::observation::BEAMS;
+
+/// What cars see, `N` in each lane; `Q` is `N * BEAMS`.
+///
+/// To be kept from one control period to the next: it is many bytes, and filling them again takes a while.
+pub struct Glance<V, const N: usize, const Q: usize> {
+    /// The beams of each car, rightmost first.
+    pub rays: [[Ray<V>; BEAMS]; N],
+    /// How far they go, metres: the distance to the nearest obstacle, or infinity if there is none within range.
+    pub distances: [[V; BEAMS]; N],
+    pub(super) bins: [[V; BEAMS]; N],
+    pub(super) met: [[Met<V>; BEAMS]; N],
+    pub(super) asked: Asked<Q>,
+}
+
+impl<V: Vector, const N: usize, const Q: usize> Default for Glance<V, N, Q> {
+    /// Nothing is seen yet.
+    #[inline(always)]
+    fn default() -> Self {
+        const { assert!(Q == N * BEAMS) };
+        let zero = V::from(0.0);
+        let ray = Ray { origin: (zero, zero), direction: (zero, zero) };
+        Self {
+            rays: [[ray; BEAMS]; N],
+            distances: [[zero; BEAMS]; N],
+            bins: [[zero; BEAMS]; N],
+            met: [[Met::nothing(); BEAMS]; N],
+            asked: Asked::new(),
+        }
+    }
+}
