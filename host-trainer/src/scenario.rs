@@ -471,6 +471,10 @@ pub struct TrainingSpec {
     /// The same share of the first generation's drives; between the two it changes evenly.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub stressed_share_start: f32,
+    /// Whether cars under stress take turns: every other one has all of it, of the rest one [lacks](crate::stress::in_full_but)
+    /// the dead time, and the next the slow servo.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub stress_in_turns: bool,
     /// Every other drive of training, and of those that choose the champion, is made with a body
     /// that is so many metres larger on every side; pairs are drawn for the car as it is.
     #[serde(default, skip_serializing_if = "is_zero")]

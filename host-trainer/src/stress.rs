@@ -30,6 +30,13 @@ pub fn in_full(car: Disturbances, period: f32) -> Disturbances {
     with(&Factor::ALL, FULL, car, period)
 }
 
+/// The same without one of the factors.
+pub fn in_full_but(left_out: Factor, car: Disturbances, period: f32) -> Disturbances {
+    let others: Vec<Factor> =
+        Factor::ALL.into_iter().filter(|factor| *factor != left_out).collect();
+    with(&others, FULL, car, period)
+}
+
 /// The same with these factors at this scale.
 fn with(factors: &[Factor], scale: f32, mut car: Disturbances, period: f32) -> Disturbances {
     for factor in factors {

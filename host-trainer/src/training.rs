@@ -354,7 +354,8 @@ impl<'a> Training<'a> {
         let random = |pair| training_drive(self.seed, generation, pair);
         let spec = &self.problem.scenario.training;
         let stressed = spec.stressed_share_at(progress(generation, spec.generations));
-        let cars = Cars::OfTraining { stressed };
+        // Where only a few are under stress, each still has its turn in some generation.
+        let cars = Cars::OfTraining { stressed, first_turn: generation.into() };
         let Some(drives) = self.test_drives.of(genomes, cars, &pairs, &random, stop) else {
             return Ok(None);
         };
@@ -427,7 +428,8 @@ impl<'a> Training<'a> {
     ) -> Option<Vec<Cost>> {
         let (scenario, seed) = (&self.problem.scenario, self.seed);
         let random = |pair| validation_drive(seed, pair);
-        let cars = Cars::OfTraining { stressed: scenario.training.stressed_share.into() };
+        let stressed = scenario.training.stressed_share.into();
+        let cars = Cars::OfTraining { stressed, first_turn: 0 };
         let drives = worlds.of(genomes, cars, pairs, &random, stop)?;
         let each = drives.chunks(pairs.len());
         Some(each.map(|drives| fitness::total(scenario, pairs, drives)).collect())

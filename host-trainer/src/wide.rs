@@ -6,8 +6,8 @@
 //! is done the next individual, until there is nothing left to drive. Where individuals have few
 //! pairs and drives end early, cars come to wait for the longest drive of their lane; once they have
 //! waited too much, each car is given weights of its own and goes from individual to individual by
-//! itself. Once nothing is left to begin, cars close ranks: they leave whole slots empty, for which hardly
-//! anything is computed. Drives end when they like, so lanes and order are a matter of chance; outcomes are kept by individual and pair.
+//! itself. Once nothing is left to begin, cars close ranks: they leave whole slots empty. Drives end
+//! when they like, so lanes and order are a matter of chance; outcomes are kept by individual and pair.
 //!
 //! [`episode::drive`](crate::episode::drive) is the reference: every operation here is the same
 //! generic function over a wider lane, or the same function called for one car after the other

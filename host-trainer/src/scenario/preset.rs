@@ -136,6 +136,7 @@ pub(super) fn paper() -> Scenario {
             validation_pairs: 0,
             stressed_share: 0.0,
             stressed_share_start: 0.0,
+            stress_in_turns: false,
             footprint_padding: 0.0,
             until_reached: false,
             worlds: None,

@@ -158,7 +158,8 @@ fn any_training() -> impl Strategy<Value = TrainingSpec> {
         0_u32..1000,
         [0.0_f32..1.0, 0.0_f32..1.0, 0.0_f32..1.0],
     );
-    (sizes, ga, any::<bool>(), novelty).prop_map(|(sizes, ga, until_reached, novelty)| {
+    (sizes, ga, any::<[bool; 2]>(), novelty).prop_map(|(sizes, ga, flags, novelty)| {
+        let [until_reached, stress_in_turns] = flags;
         let (population, generations, weight_bound, validation_pairs, others) = sizes;
         let [stressed_share, stressed_share_start, footprint_padding] = others;
         TrainingSpec {
@@ -168,6 +169,7 @@ fn any_training() -> impl Strategy<Value = TrainingSpec> {
             validation_pairs,
             stressed_share,
             stressed_share_start,
+            stress_in_turns,
             footprint_padding,
             until_reached,
             worlds: None,

@@ -7,7 +7,7 @@ use crate::problem::Problem;
 use crate::scenario::generate::{Kind, Recipe};
 use crate::scenario::{Scenario, WorldsSpec};
 use crate::seed::{Purpose, RunSeed};
-use crate::stress;
+use crate::stress::{self, Factor};
 use std::fmt::Display;
 
 /// One world, for the scenario's car and for the worse ones that some drives are made with.
@@ -22,17 +22,43 @@ pub(super) struct Ground {
 #[derive(Debug)]
 struct Variant {
     calm: Problem,
-    stressed: Option<Problem>,
+    stressed: Option<Stressed>,
+}
+
+/// The cars of drives under stress. Who met dead time and a slow servo only together would steer well for
+/// both at once, and for neither alone.
+#[derive(Debug)]
+struct Stressed {
+    in_full: Problem,
+    /// Those without dead time and without the slow servo, if cars take turns.
+    with_less: Option<[Problem; 2]>,
 }
 
 impl Variant {
     fn new(calm: Problem) -> Self {
         let scenario = &calm.scenario;
         let stressed = scenario.training.has_stress().then(|| {
-            let car = Disturbances::of(scenario).without_chance();
-            calm.disturbed(stress::in_full(car, scenario.episode.period))
+            let (car, period) =
+                (Disturbances::of(scenario).without_chance(), scenario.episode.period);
+            let but = |factor| calm.disturbed(stress::in_full_but(factor, car, period));
+            let in_turns = scenario.training.stress_in_turns;
+            Stressed {
+                in_full: calm.disturbed(stress::in_full(car, period)),
+                with_less: in_turns.then(|| [Factor::DeadTime, Factor::ServoTime].map(but)),
+            }
         });
         Self { calm, stressed }
+    }
+}
+
+impl Stressed {
+    /// Whose turn it is: every other time that of all stress.
+    fn in_turn(&self, turn: u64) -> &Problem {
+        match (turn % 4, &self.with_less) {
+            (1, Some([but_dead_time, _])) => but_dead_time,
+            (3, Some([_, but_servo_time])) => but_servo_time,
+            _ => &self.in_full,
+        }
     }
 }
 
@@ -50,14 +76,17 @@ impl Ground {
     }
 
     /// The world with the car of a generation's `n`th drive, counted world by world, if this share of
-    /// the drives is under stress: in turns as described and padded, of either as many under stress.
-    pub(super) fn for_drive(&self, n: usize, share: f64) -> &Problem {
-        let (car, turn) = match &self.padded {
+    /// the drives is under stress: in turns as described and padded, of either as many under stress. The
+    /// first of these is that of `first_turn`.
+    pub(super) fn for_drive(&self, n: usize, share: f64, first_turn: u64) -> &Problem {
+        let (car, n) = match &self.padded {
             None => (&self.own, n),
             Some(padded) => ([&self.own, padded][n % 2], n / 2),
         };
-        let stressed = car.stressed.as_ref().filter(|_| is_stressed(turn, share));
-        stressed.unwrap_or(&car.calm)
+        match car.stressed.as_ref().zip(place_under_stress(n, share)) {
+            None => &car.calm,
+            Some((cars, place)) => cars.in_turn(first_turn + place),
+        }
     }
 
     /// Draws pairs in it.
@@ -66,11 +95,11 @@ impl Ground {
     }
 }
 
-/// Whether a drive is under stress in its turn: of the first `n` of them `share * n` are, rounded
-/// down.
-fn is_stressed(turn: usize, share: f64) -> bool {
-    let before = |turns: usize| (turns as f64 * share) as u64;
-    before(turn + 1) > before(turn)
+/// Which drive under stress the `n`th drive is, from 0; none if it is calm. Of the first `n` drives `share * n`
+/// are under stress, rounded down.
+fn place_under_stress(n: usize, share: f64) -> Option<u64> {
+    let before = |drives: usize| (drives as f64 * share) as u64;
+    (before(n + 1) > before(n)).then(|| before(n))
 }
 
 /// One of the worlds that a run makes for itself.
@@ -233,12 +262,13 @@ mod tests {
 
     #[test]
     fn drives_under_stress_are_spread_evenly() {
-        let turns = |share| -> String {
-            (0..8).map(|turn| if is_stressed(turn, share) { '!' } else { '.' }).collect()
+        let places = |share| -> String {
+            let place = |n| place_under_stress(n, share).map_or(".".into(), |n| n.to_string());
+            (0..8).map(place).collect()
         };
-        assert_eq!(turns(0.0), "........");
-        assert_eq!(turns(0.25), "...!...!");
-        assert_eq!(turns(0.5), ".!.!.!.!");
-        assert_eq!(turns(1.0), "!!!!!!!!");
+        assert_eq!(places(0.0), "........");
+        assert_eq!(places(0.25), "...0...1");
+        assert_eq!(places(0.5), ".0.1.2.3");
+        assert_eq!(places(1.0), "01234567");
     }
 }

@@ -27,8 +27,9 @@ pub(super) struct TestDrives {
 pub(super) enum Cars {
     /// The scenario's.
     AsDescribed,
-    /// Those of training, this share of them under stress if the scenario has such drives at all.
-    OfTraining { stressed: f64 },
+    /// Those of training, this share of them under stress if the scenario has such drives at all; of
+    /// the cars under stress, whose turn it is first.
+    OfTraining { stressed: f64, first_turn: u64 },
 }
 
 /// The drives of one car in one world: who, and the places of its pairs.
@@ -179,7 +180,9 @@ impl TestDrives {
             for place in (world..pairs).step_by(worlds) {
                 let problem = match cars {
                     Cars::AsDescribed => ground.as_described(),
-                    Cars::OfTraining { stressed } => ground.for_drive(count, stressed),
+                    Cars::OfTraining { stressed, first_turn } => {
+                        ground.for_drive(count, stressed, first_turn)
+                    }
                 };
                 count += 1;
                 match parts[first..].iter_mut().find(|part| std::ptr::eq(part.problem, problem)) {
@@ -224,29 +227,79 @@ mod tests {
             let source = scenario::Source::new("a.toml", text, std::path::Path::new(""));
             let problem = Problem::new(scenario::load(&source, None, &[]).unwrap()).unwrap();
             let drives = TestDrives::new(&problem, RunSeed(1), 0).unwrap();
-            let parts = drives.parts(9, Cars::OfTraining { stressed: 0.5 });
-            let is_worse = |part: &&Part<'_>| part.problem.scenario.vehicle.delay_periods > 0;
-            let stressed: usize = parts.iter().filter(is_worse).map(|part| part.places.len()).sum();
+            let parts = drives.parts(9, Cars::OfTraining { stressed: 0.5, first_turn: 0 });
+            let stressed = parts.iter().filter(|part| is_stressed(part));
+            let stressed: usize = stressed.map(|part| part.places.len()).sum();
             let all: usize = parts.iter().map(|part| part.places.len()).sum();
             assert_eq!((stressed, all), (4, 9), "{worlds}");
         }
     }
 
     #[test]
-    fn a_stressed_drive_is_that_of_a_stressed_car_and_the_others_are_as_without_stress() {
+    fn drives_under_stress_take_turns_and_the_others_are_as_without_stress() {
         let mut scenario = of_seven_pairs();
         let calm = Problem::new(scenario.clone()).unwrap();
-        scenario.training.stressed_share = 0.5;
-        let half = Problem::new(scenario.clone()).unwrap();
         scenario.training.stressed_share = 1.0;
-        let always = Problem::new(scenario).unwrap();
-        let car = stress::in_full(Disturbances::of(&calm.scenario), calm.scenario.episode.period);
-        let worse = calm.disturbed(car);
+        let alike = Problem::new(scenario.clone()).unwrap();
+        scenario.training.stress_in_turns = true;
+        let always = Problem::new(scenario.clone()).unwrap();
+        scenario.training.stressed_share = 0.5;
+        let half = Problem::new(scenario).unwrap();
+        let (car, period) = (Disturbances::of(&calm.scenario), calm.scenario.episode.period);
+        let in_full = calm.disturbed(stress::in_full(car, period));
+        let mut but_dead_time = in_full.clone();
+        but_dead_time
+            .disturb(Disturbances { delay_periods: 0, ..Disturbances::of(&in_full.scenario) });
+        let mut but_servo_time = in_full.clone();
+        but_servo_time
+            .disturb(Disturbances { servo_rate: None, ..Disturbances::of(&in_full.scenario) });
         let pairs = calm.sampler().unseen(RunSeed(3), 7).unwrap();
-        let (half, always) = (driven(&half, &pairs), driven(&always, &pairs));
-        let (calm, worse) = (driven(&calm, &pairs), driven(&worse, &pairs));
-        assert_eq!(always, worse);
-        assert_take_turns(&half, &calm, &worse);
+        let [half, always, alike, calm, in_full, but_dead_time, but_servo_time] =
+            [&half, &always, &alike, &calm, &in_full, &but_dead_time, &but_servo_time]
+                .map(|problem| driven(problem, &pairs));
+        assert_eq!(alike, in_full);
+        let turns = [&in_full, &but_dead_time, &in_full, &but_servo_time];
+        for (index, (half, always)) in half.iter().zip(&always).enumerate() {
+            let cars = [&calm, &in_full, &but_dead_time, &but_servo_time];
+            for (n, car) in cars.iter().enumerate() {
+                let others = &cars[n + 1..];
+                assert!(others.iter().all(|other| other[index] != car[index]), "drive {index}");
+            }
+            let pair = index % 7;
+            assert_eq!(*always, turns[pair % 4][index], "drive {index}");
+            let car = if pair % 2 == 1 { turns[pair / 2] } else { &calm };
+            assert_eq!(*half, car[index], "drive {index}");
+        }
+    }
+
+    #[test]
+    fn of_the_cars_under_stress_another_has_its_turn_first_in_the_next_generation() {
+        let mut scenario = of_seven_pairs();
+        scenario.training.stressed_share = 1.0;
+        scenario.training.stress_in_turns = true;
+        let problem = Problem::new(scenario).unwrap();
+        let pairs = problem.sampler().unseen(RunSeed(3), 7).unwrap();
+        let from = |first_turn| {
+            let cars = Cars::OfTraining { stressed: 1.0, first_turn };
+            let drives = TestDrives::new(&problem, RunSeed(1), 0).unwrap();
+            let vehicle = |part: &Part<'_>| {
+                let vehicle = &part.problem.scenario.vehicle;
+                (part.places.clone(), vehicle.delay_periods, vehicle.servo_rate.is_some())
+            };
+            drives.parts(pairs.len(), cars).iter().map(vehicle).collect::<Vec<_>>()
+        };
+        let [in_full, but_dead_time, but_servo_time] = [(1, true), (0, true), (1, false)];
+        let expected = |parts: [(&[usize], (u8, bool)); 3]| {
+            parts.map(|(places, (delay, servo))| (places.to_vec(), delay, servo)).to_vec()
+        };
+        assert_eq!(
+            from(0),
+            expected([(&[0, 2, 4, 6], in_full), (&[1, 5], but_dead_time), (&[3], but_servo_time)])
+        );
+        assert_eq!(
+            from(3),
+            expected([(&[0, 4], but_servo_time), (&[1, 3, 5], in_full), (&[2, 6], but_dead_time)])
+        );
     }
 
     #[test]
@@ -283,10 +336,10 @@ mod tests {
         scenario.training.stressed_share = 0.5;
         let problem = Problem::new(scenario).unwrap();
         let drives = TestDrives::new(&problem, RunSeed(1), 0).unwrap();
-        let cars = drives.parts(8, Cars::OfTraining { stressed: 0.5 });
+        let cars = drives.parts(8, Cars::OfTraining { stressed: 0.5, first_turn: 0 });
         let of = |part: &Part<'_>| {
-            let vehicle = &part.problem.scenario.vehicle;
-            (vehicle.width > 0.3, vehicle.delay_periods > 0, part.places.clone())
+            let is_padded = part.problem.scenario.vehicle.width > 0.3;
+            (is_padded, is_stressed(part), part.places.clone())
         };
         assert_eq!(
             cars.iter().map(of).collect::<Vec<_>>(),
@@ -297,6 +350,11 @@ mod tests {
                 (true, true, vec![3, 7]),
             ]
         );
+    }
+
+    /// Whether these are drives of a car under stress, whichever.
+    fn is_stressed(part: &Part<'_>) -> bool {
+        part.problem.scenario.sensors.dropout > 0.0
     }
 
     fn of_seven_pairs() -> Scenario {
@@ -317,7 +375,7 @@ mod tests {
     /// The drives of two individuals, as in the scenario's training.
     fn driven(problem: &Problem, pairs: &[Pair]) -> Vec<Outcome> {
         let stressed = problem.scenario.training.stressed_share.into();
-        drives(problem, Cars::OfTraining { stressed }, pairs)
+        drives(problem, Cars::OfTraining { stressed, first_turn: 0 }, pairs)
     }
 
     fn drives(problem: &Problem, cars: Cars, pairs: &[Pair]) -> Vec<Outcome> {

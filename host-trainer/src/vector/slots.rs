@@ -54,7 +54,12 @@ impl<V: Lane, const K: usize> From<f32> for Slots<V, K> {
 impl<V: Lane, const K: usize, const SETS: usize> From<Weight<V, SETS>> for Slots<V, K> {
     #[inline(always)]
     fn from(weight: Weight<V, SETS>) -> Self {
-        const { assert!(SETS == 1 || SETS >= K, "one for all, or one for each") };
+        const {
+            assert!(
+                SETS == 1 || SETS >= K,
+                "one for all, or one for each, of which the first count"
+            )
+        };
         let mut all = [weight.0[0]; K];
         if SETS > 1 {
             all.copy_from_slice(&weight.0[..K]);

@@ -143,7 +143,8 @@ fn load<V: Vector, const SETS: usize>(
 
 /// The hidden outputs of all cars' networks, whatever their sizes.
 trait Memory<V> {
-    /// One step of the networks of the first so many slots, at least.
+    /// One step of the networks of the first so many slots, at least; of the others, outputs and memory are
+    /// anything afterwards.
     fn step(
         &mut self,
         slots: usize,
@@ -251,11 +252,12 @@ impl<V: Vector, R: Recurrence, const SETS: usize, const K: usize, const H: usize
             }
             return;
         }
-        let first = |all: &All<V>| Slots(*all.0.first_chunk::<K>().expect("no more than all"));
-        let State { first: one, second: two } = &*state;
-        let mut few = State { first: one.each_ref().map(first), second: two.each_ref().map(first) };
-        let answer =
-            network.step_by::<OF_FEW, _>(activation, &mut few, &inputs.each_ref().map(first));
+        let few_of = |all: &All<V>| Slots(*all.0.first_chunk::<K>().expect("no more than all"));
+        let State { first, second } = &*state;
+        let mut few =
+            State { first: first.each_ref().map(few_of), second: second.each_ref().map(few_of) };
+        let inputs = inputs.each_ref().map(few_of);
+        let answer = network.step_by::<OF_FEW, _>(activation, &mut few, &inputs);
         let all = state.first.iter_mut().chain(&mut state.second).chain(outputs);
         for (all, few) in all.zip(few.first.iter().chain(&few.second).chain(&answer)) {
             all.0[..K].copy_from_slice(&few.0);

@@ -9,6 +9,7 @@ use host_trainer::car::body_of;
 use host_trainer::seed::Stream;
 use host_trainer::world::{Cells, Fan, Glance, Lookout, Obstacles};
 use proptest::prelude::*;
+use std::cell::RefCell;
 use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -70,6 +71,8 @@ struct Pair {
     lookout: Lookout,
     truth: OneByOne,
     fan: Fan,
+    /// Kept, as drives keep it: what one pose leaves behind must not matter to the next.
+    glance: RefCell<Glance<f32, 1, BEAMS>>,
     body: Body<f32>,
     seen: usize,
     touched: usize,
@@ -89,14 +92,14 @@ impl Pair {
     ) -> Self {
         let obstacles = Arc::new(Obstacles::new(walls.clone(), discs.clone()));
         let lookout = Lookout::new(obstacles, fan.range(), body, cells);
-        Self { lookout, truth: OneByOne { walls, discs }, fan, body, seen: 0, touched: 0 }
+        let (truth, glance) = (OneByOne { walls, discs }, RefCell::default());
+        Self { lookout, truth, fan, glance, body, seen: 0, touched: 0 }
     }
 
     fn look(&self, pose: &Pose<f32>) -> [f32; BEAMS] {
-        let mut glance = Glance::<f32, 1, BEAMS>::default();
+        let mut glance = self.glance.borrow_mut();
         self.lookout.look(&self.fan, &[*pose], &[1], &mut glance);
-        let [seen] = glance.distances;
-        seen
+        glance.distances[0]
     }
 
     fn feel(&self, body: &Body<f32>, pose: &Pose<f32>) -> bool {

@@ -52,7 +52,9 @@ pub(super) fn in_lane<V: Vector>(ray: &Ray<V>, lane: usize) -> Ray<f32> {
 /// What beams have met so far.
 #[derive(Clone, Copy)]
 pub(super) struct Met<V> {
+    /// How far away the nearest is, metres.
     near: V,
+    /// How closely the beam's line passes the end of any, metres.
     past: V,
 }
 

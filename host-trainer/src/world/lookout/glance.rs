@@ -8,14 +8,18 @@ use controller_core::observation::BEAMS;
 
 /// What cars see, `N` in each lane; `Q` is `N * BEAMS`.
 ///
-/// To be kept from one control period to the next: it is many bytes, and filling them again takes a while.
+/// To be kept from one control period to the next where cars are many: it is many bytes, and filling them again
+/// takes a while. What it holds of cars that were not live in the last [look](super::Lookout::look) means nothing.
 pub struct Glance<V, const N: usize, const Q: usize> {
     /// The beams of each car, rightmost first.
     pub rays: [[Ray<V>; BEAMS]; N],
     /// How far they go, metres: the distance to the nearest obstacle, or infinity if there is none within range.
     pub distances: [[V; BEAMS]; N],
+    /// Their directions, as parts of a turn.
     pub(super) bins: [[V; BEAMS]; N],
+    /// What was met of all that had to be tested.
     pub(super) met: [[Met<V>; BEAMS]; N],
+    /// What had to be tested.
     pub(super) asked: Asked<Q>,
 }
 
