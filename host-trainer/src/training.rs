@@ -331,6 +331,13 @@ impl<'a> Training<'a> {
         self.pairs(&self.test_drives, 0, &[]).map(drop)
     }
 
+    /// The cars of a generation. Where few are under stress, each kind still has its turn in some generation.
+    fn cars_in(&self, generation: u32) -> Cars {
+        let spec = &self.problem.scenario.training;
+        let stressed = spec.stressed_share_at(progress(generation, spec.generations));
+        Cars::OfTraining { stressed, first_turn: generation.into() }
+    }
+
     /// Judges the current generation on the current rayon pool and breeds the next.
     ///
     /// # Errors
@@ -352,10 +359,7 @@ impl<'a> Training<'a> {
         let pairs = self.pairs(&self.test_drives, generation, &self.kept)?;
         let genomes = self.search.ask().genes();
         let random = |pair| training_drive(self.seed, generation, pair);
-        let spec = &self.problem.scenario.training;
-        let stressed = spec.stressed_share_at(progress(generation, spec.generations));
-        // Where only a few are under stress, each still has its turn in some generation.
-        let cars = Cars::OfTraining { stressed, first_turn: generation.into() };
+        let cars = self.cars_in(generation);
         let Some(drives) = self.test_drives.of(genomes, cars, &pairs, &random, stop) else {
             return Ok(None);
         };
@@ -367,6 +371,7 @@ impl<'a> Training<'a> {
         let best = self.best_of(&costs, &drives, pairs.len());
         let row = row::row(generation, &costs, &drives, pairs.len(), best);
         let solves = self.solves(&row);
+        let spec = &scenario.training;
         let is_last = generation + 1 >= spec.generations || solves;
         let chosen = if is_last && holds_out(spec) {
             self.chosen_elsewhere(stop)?

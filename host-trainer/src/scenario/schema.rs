@@ -296,7 +296,7 @@ impl Record for TrainingSpec {
         let share = &mut self.stressed_share_start;
         let about = "drives under stress in the first generation; none if left out";
         v.value("stressed_share_start", share, UnlessDefault(SHARE), about);
-        let about = "half of them without dead time or without a slow servo; off if left out";
+        let about = "of drives under stress, half lack dead time or slow servo; off if left out";
         v.value("stress_in_turns", &mut self.stress_in_turns, UnlessDefault(Flag), about);
         let metres = UnlessDefault(Number::metres(0.0, 1.0));
         let about = "how much larger every other car is, on every side; no larger if left out";

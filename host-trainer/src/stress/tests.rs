@@ -139,3 +139,13 @@ fn stress_leaves_the_problem_as_it_was_and_the_first_level_is_the_scenario_witho
         stress.factors.iter().flat_map(|alone| &alone.levels).any(|l| l.clean != stress.calm.clean)
     );
 }
+
+#[test]
+fn what_a_car_has_of_its_own_stays_where_that_of_stress_is_left_out() {
+    let own = Disturbances { delay_periods: 1, servo_rate: Some(9.0), ..exact() };
+    let of = |car: Disturbances| (car.delay_periods, car.servo_rate);
+    let (delay, servo) = of(in_full(own, 0.1));
+    assert!(delay == 2 && servo < Some(6.0), "{delay}, {servo:?}");
+    assert_eq!(of(in_full_but(Factor::DeadTime, own, 0.1)), (1, servo));
+    assert_eq!(of(in_full_but(Factor::ServoTime, own, 0.1)), (delay, Some(9.0)));
+}

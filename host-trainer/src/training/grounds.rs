@@ -76,8 +76,8 @@ impl Ground {
     }
 
     /// The world with the car of a generation's `n`th drive, counted world by world, if this share of
-    /// the drives is under stress: in turns as described and padded, of either as many under stress. The
-    /// first of these is that of `first_turn`.
+    /// the drives is under stress: in turns as described and padded, of either as many under stress. Of the
+    /// cars under stress it is first the turn of number `first_turn`.
     pub(super) fn for_drive(&self, n: usize, share: f64, first_turn: u64) -> &Problem {
         let (car, n) = match &self.padded {
             None => (&self.own, n),

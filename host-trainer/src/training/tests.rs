@@ -70,3 +70,16 @@ fn worlds_that_make_way_for_new_ones_are_another_problem_in_each_generation() {
     assert!(is_stationary(0));
     assert!(!is_stationary(5));
 }
+
+#[test]
+fn in_each_generation_another_car_under_stress_has_its_turn_first() {
+    let problem = problem();
+    let training = Training::new(&problem, RunSeed(7)).unwrap();
+    let first = |generation| match training.cars_in(generation) {
+        Cars::OfTraining { first_turn, .. } => first_turn % 4,
+        Cars::AsDescribed => panic!("training has its own cars"),
+    };
+    let mut turns: Vec<u64> = (0..4).map(first).collect();
+    turns.sort_unstable();
+    assert_eq!(turns, [0, 1, 2, 3]);
+}

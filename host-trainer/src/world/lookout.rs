@@ -87,7 +87,7 @@ impl Lookout {
         Self { slack: shelf.slack(), obstacles, range, largest, grid, shelf, field }
     }
 
-    /// What cars at these poses see whose bit in `live` is set; what the glance says of others means nothing.
+    /// What the cars with a bit in `live` see from these poses; what the glance says of others means nothing.
     ///
     /// A pose's heading, cosine and sine must belong together, as they do in every pose made by
     /// [`Pose::new`] and [`Pose::driven`].
