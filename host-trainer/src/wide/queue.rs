@@ -12,12 +12,13 @@ pub(super) struct Job {
     pub(super) pair: usize,
 }
 
-/// All that is left to drive; shared by all threads.
+/// All that is left to drive; shared by all threads. The last individuals come first: in a population the unchanged
+/// copies of the last generation stand there, who drive longest, and whoever begins late is waited for.
 #[derive(Debug)]
 pub(super) struct Queue<'a> {
-    /// Individuals, the first ones, of whom something has been handed out.
+    /// Individuals, the last ones, of whom something has been handed out.
     begun: AtomicUsize,
-    /// Individuals, the first ones, of whom nothing is left.
+    /// Individuals, the last ones, of whom nothing is left.
     over: AtomicUsize,
     /// Of each individual: the next pair.
     next: Vec<AtomicUsize>,
@@ -39,10 +40,10 @@ impl<'a> Queue<'a> {
 
     /// Whether there is anything left.
     pub(super) fn has_drives(&self) -> bool {
-        self.first_left().is_some()
+        self.next_left().is_some()
     }
 
-    /// A pair of an individual who has not begun, or, once all have, of the first of whom any is
+    /// A pair of an individual who has not begun, or, once all have, of the last of whom any is
     /// left: whoever takes it has weights to load, while those who have them go on with
     /// [`Self::take_more`].
     pub(super) fn take(&self) -> Option<Job> {
@@ -50,13 +51,15 @@ impl<'a> Queue<'a> {
             return None;
         }
         if self.begun.load(Ordering::Relaxed) < self.next.len() {
-            let individual = self.begun.fetch_add(1, Ordering::Relaxed);
-            if let Some(pair) = self.take_more(individual) {
+            let begun = self.begun.fetch_add(1, Ordering::Relaxed);
+            if let Some(individual) = self.next.len().checked_sub(begun + 1)
+                && let Some(pair) = self.take_more(individual)
+            {
                 return Some(Job { individual, pair });
             }
         }
         loop {
-            let individual = self.first_left()?;
+            let individual = self.next_left()?;
             if let Some(pair) = self.take_more(individual) {
                 return Some(Job { individual, pair });
             }
@@ -73,16 +76,16 @@ impl<'a> Queue<'a> {
     }
 
     fn has_more(&self, individual: usize) -> bool {
-        let next = self.next.get(individual);
-        next.is_some_and(|next| next.load(Ordering::Relaxed) < self.pairs)
+        self.next[individual].load(Ordering::Relaxed) < self.pairs
     }
 
-    /// The first individual of whom a pair is left.
-    fn first_left(&self) -> Option<usize> {
+    /// The last individual of whom a pair is left.
+    fn next_left(&self) -> Option<usize> {
+        let all = self.next.len();
         let over = self.over.load(Ordering::Relaxed);
-        let first = (over..self.next.len()).find(|individual| self.has_more(*individual));
-        self.over.fetch_max(first.unwrap_or(self.next.len()), Ordering::Relaxed);
-        first
+        let last = (0..all - over).rfind(|individual| self.has_more(*individual));
+        self.over.fetch_max(last.map_or(all, |last| all - 1 - last), Ordering::Relaxed);
+        last
     }
 }
 
@@ -115,7 +118,7 @@ mod tests {
         let queue = Queue::new(3, 2, &stop);
         let taken: Vec<_> = std::iter::from_fn(|| queue.take()).collect();
         let job = |individual, pair| Job { individual, pair };
-        assert_eq!(taken, [job(0, 0), job(1, 0), job(2, 0), job(0, 1), job(1, 1), job(2, 1)]);
+        assert_eq!(taken, [job(2, 0), job(1, 0), job(0, 0), job(2, 1), job(1, 1), job(0, 1)]);
     }
 
     #[test]
