@@ -10,10 +10,12 @@
 //! | [`population`] | genomes as rows of one matrix |
 //! | [`state`] | what a checkpoint must keep |
 //! | [`ga`] | the paper's genetic algorithm and its operators |
+//! | [`islands`] | several of these, of which the worse are given up on the way |
 //! | [`novelty`] | selection by what nobody has done yet, in place of cost |
 
 pub mod cost;
 pub mod ga;
+pub mod islands;
 pub mod novelty;
 pub mod population;
 pub mod state;
@@ -23,6 +25,7 @@ use ga::settings::require;
 use ga::{Ga, GaSpec, Initial, Mutation, Outlook, Selection, SettingError};
 
 pub use cost::{Cost, best_index, ranking};
+pub use islands::Islands;
 pub use novelty::{Novelty, NoveltySpec};
 pub use population::Population;
 pub use state::{GenomeError, RestoreError, State};
@@ -35,8 +38,8 @@ pub trait Optimizer: Send {
     /// Generations told so far; the one [`Self::ask`] shows, counted from 0.
     fn generation(&self) -> u32;
 
-    /// The genomes to judge: always as many, as long and as bounded as the
-    /// [`SearchSpace`] says, and the same until [`Self::tell`].
+    /// The genomes to judge: always as long and as bounded as the [`SearchSpace`] says, as many as
+    /// it says for each population that is left, and the same until [`Self::tell`].
     fn ask(&self) -> &Population;
 
     /// Takes the cost of every genome, in the order of [`Self::ask`], and breeds the next
@@ -45,6 +48,15 @@ pub trait Optimizer: Send {
     /// # Panics
     /// When there are not exactly as many costs as genomes.
     fn tell(&mut self, costs: &[Cost]);
+
+    /// Begins with this genome, and mutants of it in place of random genomes: the genome itself
+    /// comes first in each population, the others by the first generation's mutation. To be called before
+    /// [`Self::tell`].
+    ///
+    /// # Errors
+    ///
+    /// A genome of another length, or with a gene that is out of bounds.
+    fn begin_with(&mut self, genome: &[f32]) -> Result<(), GenomeError>;
 
     /// Everything that [`Self::restore`] needs to go on bit for bit.
     fn save(&self) -> State;
@@ -57,7 +69,7 @@ pub trait Optimizer: Send {
 /// How many genomes there are, how long, and in which bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchSpace {
-    /// Genomes per generation, at least 2.
+    /// Genomes per generation in each population, at least 2.
     pub population: usize,
     /// Genes per genome, at least 1.
     pub genome_len: usize,
@@ -150,6 +162,11 @@ pub fn all(space: SearchSpace, seed: RunSeed) -> Result<Vec<Named>, SettingError
             let scales = (0..space.genome_len).map(|gene| 0.5 + (gene % 2) as f32).collect();
             Box::new(Ga::with_outlook(space, spec, Outlook { generations: 200, scales }, seed)?)
         }),
+        ("islands", {
+            let spec = GaSpec { selection: truncation, mutation: gaussian, ..paper };
+            let outlook = Outlook { generations: 24, ..Outlook::none(space.genome_len) };
+            Box::new(Islands::new(5, space, spec, outlook, seed)?)
+        }),
     ])
 }
 
@@ -183,18 +200,18 @@ mod tests {
         population.genes().iter().map(|gene| gene.to_bits()).collect()
     }
 
-    fn assert_in_space(name: &str, population: &Population, space: SearchSpace) {
-        assert_eq!(population.size(), space.population, "{name}");
+    fn assert_in_space(name: &str, population: &Population, space: SearchSpace, islands: usize) {
+        assert_eq!(population.size(), islands * space.population, "{name}");
         assert_eq!(population.genome_len(), space.genome_len, "{name}");
         let inside = |gene: &f32| (-space.bound..=space.bound).contains(gene);
         assert!(population.genes().iter().all(inside), "{name}: a gene left its bounds");
     }
 
-    /// Oracle: pure chance with the same number of evaluations.
+    /// Oracle: pure chance with as many evaluations or more.
     #[test]
     fn every_method_is_far_better_than_chance_on_a_sphere() {
         let mut chance = RunSeed(1).stream(Purpose::GeneratedWorld, 0, 0);
-        let by_chance = (0..80 * 200)
+        let by_chance = (0..80 * 300)
             .map(|_| sphere(&[(); 10].map(|()| chance.within(-3.0, 3.0))))
             .min()
             .unwrap();
@@ -214,11 +231,14 @@ mod tests {
             for genome_len in [1, 2, 7] {
                 let space = SearchSpace { population, genome_len, bound: 0.1 };
                 for (name, mut method) in every_method(space, 5) {
+                    let islands = if name == "islands" { 5 } else { 1 };
                     for _ in 0..5 {
-                        assert_in_space(name, method.ask(), space);
+                        assert_in_space(name, method.ask(), space, islands);
                         run(method.as_mut(), 1);
                     }
-                    assert_in_space(name, method.ask(), space);
+                    assert_in_space(name, method.ask(), space, islands);
+                    run(method.as_mut(), 19);
+                    assert_in_space(name, method.ask(), space, 1);
                 }
             }
         }
@@ -243,9 +263,9 @@ mod tests {
         for cost in nothing {
             for (name, mut method) in every_method(SPACE, 3) {
                 for _ in 0..30 {
-                    method.tell(&[cost; 80]);
+                    method.tell(&vec![cost; method.ask().size()]);
                 }
-                assert_in_space(name, method.ask(), SPACE);
+                assert_in_space(name, method.ask(), SPACE, 1);
                 assert_eq!(method.generation(), 30, "{name}");
                 let mut distinct = bits(method.ask());
                 distinct.sort_unstable();
@@ -258,7 +278,7 @@ mod tests {
     #[test]
     fn one_good_genome_among_failures_is_found_again() {
         for (name, mut method) in every_method(SPACE, 4) {
-            let mut costs = [Cost::WORST; 80];
+            let mut costs = vec![Cost::WORST; method.ask().size()];
             costs[41] = Cost::new(-20_000.0);
             let good = method.ask().genome(41).to_vec();
             method.tell(&costs);

@@ -370,6 +370,8 @@ pub struct Pair {
 impl TrainingSpec {
     /// Individuals that a search may have.
     pub const POPULATION: RangeInclusive<u32> = 2..=1_000_000;
+    /// Islands that a search may have.
+    pub const ISLANDS: RangeInclusive<u32> = 1..=64;
     /// Generations that a run may have.
     pub const GENERATIONS: RangeInclusive<u32> = 1..=1_000_000;
 
@@ -377,6 +379,20 @@ impl TrainingSpec {
     pub fn stressed_share_at(&self, progress: f64) -> f64 {
         let [start, end] = [self.stressed_share_start, self.stressed_share].map(f64::from);
         start + (end - start) * progress
+    }
+
+    /// Individuals of the first generation: of all islands.
+    pub fn individuals(&self) -> u64 {
+        u64::from(self.population) * u64::from(self.islands)
+    }
+
+    /// `100 individuals`, or `6 islands of 100 individuals`.
+    pub fn individuals_in_words(&self) -> String {
+        let Self { population, islands, .. } = self;
+        match islands {
+            1 => format!("{population} individuals"),
+            _ => format!("{islands} islands of {population} individuals"),
+        }
     }
 
     /// Whether any drives are under stress.
@@ -387,6 +403,14 @@ impl TrainingSpec {
 
 fn is_zero_count(count: &u32) -> bool {
     *count == 0
+}
+
+fn one() -> u32 {
+    1
+}
+
+fn is_one(count: &u32) -> bool {
+    *count == 1
 }
 
 fn is_zero(value: &f32) -> bool {
@@ -455,8 +479,12 @@ impl WorldsSpec {
 /// The search.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingSpec {
-    /// Individuals, at least 2.
+    /// Individuals, at least 2; of each island, if there are several.
     pub population: u32,
+    /// Populations that evolve apart from each other, of which all but one are
+    /// [given up](crate::evolve::islands) on the way.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub islands: u32,
     /// Generations to run, at least 1.
     pub generations: u32,
     /// Weights are drawn in, and kept in, `-bound..=bound`.

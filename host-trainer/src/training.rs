@@ -18,9 +18,11 @@ mod test_drives;
 mod tests;
 
 use crate::episode::Outcome;
-use crate::evolve::ga::{Ga, Outlook, progress};
+use crate::evolve::ga::{Ga, Outlook, SettingError, progress};
 use crate::evolve::novelty::Behaviours;
-use crate::evolve::{Cost, Novelty, Optimizer, RestoreError, SearchSpace, State};
+use crate::evolve::{
+    Cost, GenomeError, Islands, Novelty, Optimizer, RestoreError, SearchSpace, State,
+};
 use crate::failure::Failure;
 use crate::fingerprint;
 use crate::fitness;
@@ -143,14 +145,7 @@ impl<'a> Training<'a> {
         };
         let scales = scales::scales(problem.topology());
         let outlook = Outlook { generations: spec.generations, scales };
-        let search = Ga::with_outlook(space, spec.ga, outlook, seed)
-            .map_err(|error| Failure::bad_input(format!("training: {error}")))?;
-        let search = match genome {
-            None => search,
-            Some(genome) => search.beginning_with(genome).map_err(|error| {
-                Failure::bad_input(format!("training: the genome to begin with: {error}"))
-            })?,
-        };
+        let search = search(spec, space, outlook, seed, genome)?;
         let test_drives = TestDrives::new(problem, seed, 0)?;
         let validation = match problem.scenario.pairs.source {
             PairSource::Drawn { .. } if !holds_out(spec) => {
@@ -159,7 +154,6 @@ impl<'a> Training<'a> {
             _ => Ok(Vec::new()),
         };
         let validation = validation.map_err(|none| no_pair(problem, none))?;
-        let search: Box<dyn Optimizer> = Box::new(search);
         let run = run_id(&problem.scenario, test_drives.scenarios(), seed, genome);
         let (history, kept) = (Vec::new(), Vec::new());
         let coordinates = 2 * count_of_pairs(&problem.scenario) as usize;
@@ -204,7 +198,7 @@ impl<'a> Training<'a> {
         }
         let (search, archive) = match (snapshot.search, &self.novelty) {
             (State::Novelty { search, archive }, Some(_)) => (*search, Some(archive)),
-            (search @ State::Ga(_), None) => (search, None),
+            (search @ (State::Ga(_) | State::Islands(_)), None) => (search, None),
             _ => return Err(ResumeError::Search(RestoreError::Method)),
         };
         self.search.restore(search).map_err(ResumeError::Search)?;
@@ -451,6 +445,30 @@ impl<'a> Training<'a> {
     }
 }
 
+/// The search at its beginning: random, or with a genome and mutants of it.
+fn search(
+    spec: &TrainingSpec,
+    space: SearchSpace,
+    outlook: Outlook,
+    seed: RunSeed,
+    genome: Option<&[f32]>,
+) -> Result<Box<dyn Optimizer>, Failure> {
+    let senseless = |error: SettingError| Failure::bad_input(format!("training: {error}"));
+    let refused = |error: GenomeError| {
+        Failure::bad_input(format!("training: the genome to begin with: {error}"))
+    };
+    let mut search: Box<dyn Optimizer> = if spec.islands == 1 {
+        Box::new(Ga::with_outlook(space, spec.ga, outlook, seed).map_err(senseless)?)
+    } else {
+        let islands = Islands::new(spec.islands, space, spec.ga, outlook, seed);
+        Box::new(islands.map_err(senseless)?)
+    };
+    if let Some(genome) = genome {
+        search.begin_with(genome).map_err(refused)?;
+    }
+    Ok(search)
+}
+
 /// Whether the champion is chosen in worlds that nobody is trained in.
 fn holds_out(spec: &TrainingSpec) -> bool {
     spec.worlds.is_some_and(|worlds| worlds.held_out > 0)
@@ -479,7 +497,8 @@ fn run_id<'a>(
 pub fn depends_on_generations(scenario: &Scenario) -> bool {
     let Scenario { pairs, training, .. } = scenario;
     let stress_changes = training.stressed_share != training.stressed_share_start;
-    pairs.count_end.is_some() || training.ga.sigma_end.is_some() || stress_changes
+    let plans_its_end = training.ga.sigma_end.is_some() || training.islands > 1;
+    pairs.count_end.is_some() || plans_its_end || stress_changes
 }
 
 fn no_pair(problem: &Problem, none: NoPair) -> Failure {
@@ -497,15 +516,15 @@ const MOST_DRIVES: u64 = 10_000_000;
 
 /// A search that would not fit into memory.
 pub fn too_large(scenario: &Scenario) -> Option<Complaint> {
-    let population = u64::from(scenario.training.population);
+    let (population, found) =
+        (scenario.training.individuals(), scenario.training.individuals_in_words());
     let weights = topology_of(scenario).weights() as u64;
     if population * weights > MOST_WEIGHTS {
         let most = MOST_WEIGHTS / weights;
-        let detail = format!(
-            "found {population} individuals with {weights} weights each, expected at most {most}"
-        );
+        let detail = format!("found {found} with {weights} weights each, expected at most {most}");
         let title = "the population is too large for this network";
-        return Some(Complaint::new("training.population", title, detail).or_at("network.hidden"));
+        let complaint = Complaint::new("training.population", title, detail);
+        return Some(complaint.or_at("training.islands").or_at("network.hidden"));
     }
     let pairs = count_of_pairs(scenario);
     let grows = scenario.training.novelty.map_or(0, |novelty| u64::from(novelty.archive_growth));
@@ -519,13 +538,12 @@ pub fn too_large(scenario: &Scenario) -> Option<Complaint> {
         return Some(complaint.or_at("training.generations"));
     }
     if population * pairs > MOST_DRIVES {
-        let detail = format!(
-            "found {population} individuals with {pairs} pairs each, expected at most \
-             {MOST_DRIVES} drives"
-        );
+        let detail =
+            format!("found {found} with {pairs} pairs each, expected at most {MOST_DRIVES} drives");
         let complaint = Complaint::new("pairs.count", "a generation has too many drives", detail)
             .or_at("pairs.count_end");
-        return Some(complaint.or_at("training.population").or_at("pairs.list"));
+        let complaint = complaint.or_at("training.population").or_at("training.islands");
+        return Some(complaint.or_at("pairs.list"));
     }
     None
 }

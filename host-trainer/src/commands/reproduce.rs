@@ -84,7 +84,7 @@ pub struct ReproduceArgs {
     )]
     generations: Option<u32>,
 
-    /// Individuals per generation, instead of the paper's or the preset's
+    /// Individuals per generation, of each island, instead of the paper's or the preset's
     #[arg(
         long,
         value_name = "N",

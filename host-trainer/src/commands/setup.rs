@@ -17,7 +17,7 @@ use std::path::Path;
 /// Options that every command with a scenario has.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(super) struct ScenarioOptions {
-    /// `paper` changes nothing; `robust` replaces how the scenario learns; `refine` goes on from its
+    /// `paper` changes nothing; `robust` replaces how the scenario learns; `refine` goes on from a
     /// champion; `generalist` learns in random worlds; `novelty` finds the way through a maze
     #[arg(long, value_name = "NAME", value_parser = parse_preset)]
     pub(super) preset: Option<Preset>,

@@ -70,7 +70,7 @@ pub struct TrainArgs {
     )]
     generations: Option<u32>,
 
-    /// Individuals per generation
+    /// Individuals per generation, of each island
     #[arg(
         long,
         value_name = "N",
@@ -186,9 +186,9 @@ impl Run {
         {
             if depends_on_generations(&manifest.scenario) {
                 return Err(Failure::bad_input(format!(
-                    "--generations: the run in {} changes its pairs, its mutation or its share of stressed \
-                     drives from its first generation to its last, generation {}; expected that \
-                     number, or a new run",
+                    "--generations: the run in {} changes its pairs, its mutation, its share of stressed \
+                     drives or its number of islands from its first generation to its last, generation {}; \
+                     expected that number, or a new run",
                     path.display(),
                     manifest.scenario.training.generations
                 )));
@@ -233,8 +233,8 @@ impl Run {
         let total = problem.scenario.training.generations;
         let scenario = &problem.scenario.name;
         output.status(format_args!(
-            "{scenario}: {} individuals, {}, {}, seed {}, {}, in {}",
-            problem.scenario.training.population,
+            "{scenario}: {}, {}, {}, seed {}, {}, in {}",
+            problem.scenario.training.individuals_in_words(),
             counted(total, "generation"),
             problem.topology(),
             seed,

@@ -67,6 +67,8 @@ pub struct Ga {
     spec: GaSpec,
     outlook: Outlook,
     seed: RunSeed,
+    /// Which of a run's populations this is; random numbers are its own.
+    island: u32,
     generation: u32,
     population: Population,
     /// Where the next generation is bred, so that none is ever allocated.
@@ -92,6 +94,17 @@ impl Ga {
     pub fn with_outlook(
         space: SearchSpace,
         spec: GaSpec,
+        outlook: Outlook,
+        seed: RunSeed,
+    ) -> Result<Self, SettingError> {
+        Self::on_island(0, space, spec, outlook, seed)
+    }
+
+    /// The same for one of several populations of a run, counted from 0.
+    pub(super) fn on_island(
+        island: u32,
+        space: SearchSpace,
+        spec: GaSpec,
         mut outlook: Outlook,
         seed: RunSeed,
     ) -> Result<Self, SettingError> {
@@ -102,31 +115,20 @@ impl Ga {
         if !spec.fan_in {
             outlook.scales.fill(1.0);
         }
-        let population = Population::random(&space, spec.initial, &outlook.scales, seed);
+        let population = Population::random(&space, island, spec.initial, &outlook.scales, seed);
         let next = Population::zeros(&space);
-        Ok(Self { space, spec, outlook, seed, generation: 0, population, next })
+        Ok(Self { space, spec, outlook, seed, island, generation: 0, population, next })
     }
 
-    /// The same search beginning with this genome, and mutants of it in place of random ones: the
-    /// genome itself comes first, the others by the first generation's mutation.
-    ///
-    /// # Errors
-    ///
-    /// A genome of another length, or with a gene that is out of bounds.
-    pub fn beginning_with(mut self, genome: &[f32]) -> Result<Self, GenomeError> {
-        self.space.admit_genome(genome)?;
-        let Self { space, spec, outlook, seed, population, .. } = &mut self;
-        let mut stream = seed.stream(Purpose::InitialPopulation, MUTANTS, 0);
-        let mutation = spec.mutation_at(0.0);
-        let copies = population.genes_mut().chunks_exact_mut(space.genome_len);
-        for (number, copy) in copies.enumerate() {
-            copy.copy_from_slice(genome);
-            if number > 0 {
-                let (rate, scales) = (spec.mutation_rate, &outlook.scales);
-                mutation::mutate(mutation, rate, space.bound, scales, copy, &mut stream);
-            }
-        }
-        Ok(self)
+    /// The same search with the random numbers of another island.
+    pub(super) fn moved_to(self, island: u32) -> Self {
+        Self { island, ..self }
+    }
+
+    /// What a checkpoint keeps of it.
+    pub(super) fn state(&self) -> GaState {
+        let Self { seed, generation, ref population, .. } = *self;
+        GaState { seed, generation, population: population.clone() }
     }
 }
 
@@ -147,7 +149,7 @@ impl Optimizer for Ga {
     fn tell(&mut self, costs: &[Cost]) {
         let old = &self.population;
         assert_eq!(costs.len(), old.size(), "one cost per genome");
-        let mut stream = self.seed.stream(Purpose::Breeding, self.generation, 0);
+        let mut stream = self.seed.stream(Purpose::Breeding, self.generation, self.island);
 
         let [crossed, mutated, ranked, random] = self.spec.group_sizes(old.size());
         let mut crossed = selection::select(self.spec.selection, costs, crossed, &mut stream);
@@ -176,12 +178,24 @@ impl Optimizer for Ga {
         self.generation += 1;
     }
 
+    fn begin_with(&mut self, genome: &[f32]) -> Result<(), GenomeError> {
+        self.space.admit_genome(genome)?;
+        let Self { space, spec, outlook, seed, population, island, .. } = self;
+        let mut stream = seed.stream(Purpose::InitialPopulation, MUTANTS, *island);
+        let mutation = spec.mutation_at(0.0);
+        let copies = population.genes_mut().chunks_exact_mut(space.genome_len);
+        for (number, copy) in copies.enumerate() {
+            copy.copy_from_slice(genome);
+            if number > 0 {
+                let (rate, scales) = (spec.mutation_rate, &outlook.scales);
+                mutation::mutate(mutation, rate, space.bound, scales, copy, &mut stream);
+            }
+        }
+        Ok(())
+    }
+
     fn save(&self) -> State {
-        State::Ga(GaState {
-            seed: self.seed,
-            generation: self.generation,
-            population: self.population.clone(),
-        })
+        State::Ga(self.state())
     }
 
     fn restore(&mut self, state: State) -> Result<(), RestoreError> {
@@ -245,7 +259,8 @@ mod tests {
     fn begun(mutation: Mutation, genome: &[f32], seed: u64) -> Result<Ga, GenomeError> {
         let space = SearchSpace { population: 80, genome_len: 4, bound: 1.0 };
         let spec = GaSpec { mutation, ..GaSpec::PAPER };
-        Ga::new(space, spec, RunSeed(seed)).unwrap().beginning_with(genome)
+        let mut ga = Ga::new(space, spec, RunSeed(seed)).unwrap();
+        ga.begin_with(genome).map(|()| ga)
     }
 
     #[test]

@@ -22,16 +22,19 @@ impl Population {
         Self { genome_len, genes: vec![0.0; population * genome_len] }
     }
 
-    /// Random genomes; each has its own stream, so that a larger population begins with the
-    /// genomes of a smaller one. Normal draws for gene `g` are multiplied by `scales[g]`.
+    /// Random genomes in a population of this space, which may be one of several of a run. Each has its own
+    /// stream, so that a larger population begins with the genomes of a smaller one, and several in their
+    /// order are one large one. Normal draws for gene `g` are multiplied by `scales[g]`.
     pub(super) fn random(
         space: &SearchSpace,
+        island: u32,
         initial: Initial,
         scales: &[f32],
         seed: RunSeed,
     ) -> Self {
         let mut drawn = Self::zeros(space);
-        for (genome, index) in drawn.genes.chunks_exact_mut(space.genome_len).zip(0..) {
+        let first = island * space.population as u32;
+        for (genome, index) in drawn.genes.chunks_exact_mut(space.genome_len).zip(first..) {
             let mut stream = seed.stream(Purpose::InitialPopulation, 0, index);
             for (gene, scale) in genome.iter_mut().zip(scales) {
                 *gene = match initial {
@@ -73,6 +76,15 @@ impl Population {
         &self.genes
     }
 
+    /// Becomes the genomes of all of these, which have one length, one population after the other.
+    pub(super) fn copy_all<'a>(&mut self, all: impl Iterator<Item = &'a Self>) {
+        self.genes.clear();
+        for population in all {
+            self.genome_len = population.genome_len;
+            self.genes.extend_from_slice(&population.genes);
+        }
+    }
+
     /// All genes, genome after genome, for breeding into.
     pub(super) fn genes_mut(&mut self) -> &mut [f32] {
         &mut self.genes
@@ -109,7 +121,7 @@ mod tests {
     #[test]
     fn a_larger_population_begins_with_the_smaller_one() {
         for initial in [Initial::Uniform, Initial::Gaussian { sigma: 1.0 }] {
-            let random = |space| Population::random(&space, initial, &[1.0; 3], RunSeed(7));
+            let random = |space| Population::random(&space, 0, initial, &[1.0; 3], RunSeed(7));
             let (small, large) = (random(SPACE), random(SearchSpace { population: 9, ..SPACE }));
             assert_eq!(large.size(), 9);
             assert_eq!(large.genes()[..15], *small.genes());
@@ -117,9 +129,20 @@ mod tests {
     }
 
     #[test]
+    fn populations_of_one_run_are_one_large_one() {
+        let random = |population, island| {
+            let space = SearchSpace { population, ..SPACE };
+            Population::random(&space, island, Initial::Uniform, &[1.0; 3], RunSeed(7))
+        };
+        let mut together = Population::zeros(&SPACE);
+        together.copy_all([random(5, 0), random(5, 1)].iter());
+        assert_eq!(together, random(10, 0));
+    }
+
+    #[test]
     fn first_genes_fill_their_bounds_evenly() {
         let space = SearchSpace { population: 160, genome_len: 553, bound: 2.0 };
-        let drawn = Population::random(&space, Initial::Uniform, &[1.0; 553], RunSeed(1));
+        let drawn = Population::random(&space, 0, Initial::Uniform, &[1.0; 553], RunSeed(1));
         let genes = drawn.genes().iter().copied().map(f64::from).collect();
         assert!(follows(genes, |gene| (gene + 2.0) / 4.0));
     }
@@ -128,7 +151,7 @@ mod tests {
     fn normal_first_genes_have_the_spread_of_their_scale_within_the_bounds() {
         let space = SearchSpace { population: 4000, genome_len: 2, bound: 2.0 };
         let initial = Initial::Gaussian { sigma: 0.5 };
-        let drawn = Population::random(&space, initial, &[1.0, 8.0], RunSeed(1));
+        let drawn = Population::random(&space, 0, initial, &[1.0, 8.0], RunSeed(1));
         let first = drawn.genomes().map(|genome| f64::from(genome[0])).collect();
         assert!(follows(first, |x| 0.5 * libm::erfc(-x / (0.5 * std::f64::consts::SQRT_2))));
         let second = || drawn.genomes().map(|genome| genome[1]);

@@ -5,6 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::ga::GaState;
+use super::islands::IslandState;
 use super::novelty::Archive;
 
 /// Everything a search method needs to go on, one variant per method.
@@ -21,6 +22,8 @@ pub enum State {
         /// What earlier generations did.
         archive: Archive,
     },
+    /// Of several genetic algorithms: those that are left.
+    Islands(Vec<IslandState>),
 }
 
 /// Why a saved state does not belong to this search.
@@ -47,7 +50,20 @@ pub enum RestoreError {
         /// In this search.
         expected: usize,
     },
-    /// Of a search by cost, where this one goes by novelty, or the other way round.
+    /// Another number of islands than are left in that generation.
+    Islands {
+        /// In the state.
+        found: usize,
+        /// That there must be.
+        expected: usize,
+    },
+    /// An island that this search does not have, that is out of order, of another generation than the
+    /// others, or more often behind than it can be.
+    Island {
+        /// Which.
+        number: u32,
+    },
+    /// Of another method, such as a search by cost where this one goes by novelty.
     Method,
     /// Not what so many generations leave in the archive.
     Archive {
@@ -81,7 +97,13 @@ impl fmt::Display for RestoreError {
             Self::GenomeLen { found, expected } => {
                 write!(f, "the saved search has {found} genes per genome, expected {expected}")
             }
-            Self::Method => f.write_str("one of both searches by novelty, the other by cost"),
+            Self::Islands { found, expected } => {
+                write!(f, "the saved search has {found} islands, expected {expected}")
+            }
+            Self::Island { number } => {
+                write!(f, "saved island {number} is not one that such a search comes to")
+            }
+            Self::Method => f.write_str("the saved search is of another method"),
             Self::Archive { found, expected } => {
                 write!(f, "the saved archive has {found} coordinates, expected {expected}")
             }

@@ -87,8 +87,10 @@ pub struct Row {
     pub what: &'static str,
     /// The network.
     pub network: String,
-    /// Individuals.
+    /// Individuals, of each island.
     pub population: u32,
+    /// Populations at the beginning.
+    pub islands: u32,
     /// Generations.
     pub generations: u32,
     /// Training pairs reached, all seeds together.
@@ -210,6 +212,7 @@ impl Row {
             what: setup.method.what,
             network: setup.problem.topology().to_string(),
             population: setup.problem.scenario.training.population,
+            islands: setup.problem.scenario.training.islands,
             generations: setup.generations(length),
             training: Share { count: sum(|s| s.training_reached), of: sum(|s| s.training_pairs) }
                 .into(),

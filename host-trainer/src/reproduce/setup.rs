@@ -78,7 +78,7 @@ impl Setup {
 
     /// Drives of one generation.
     pub fn work_of_a_generation(&self) -> u64 {
-        u64::from(self.problem.scenario.training.population)
+        self.problem.scenario.training.individuals()
     }
 
     /// What a trial of this setup is made of; another number means another trial.

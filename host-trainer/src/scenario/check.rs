@@ -276,7 +276,7 @@ fn other_cars(scenario: &Scenario, found: &mut Vec<Complaint>) {
 
 /// Where drives end says how alike they were only if they had the same tasks.
 fn novelty(scenario: &Scenario, found: &mut Vec<Complaint>) {
-    let TrainingSpec { population, novelty, until_reached, .. } = scenario.training;
+    let TrainingSpec { population, islands, novelty, until_reached, .. } = scenario.training;
     let changing = matches!(scenario.pairs.source, PairSource::Drawn { resample: true, .. });
     for (asked, key) in
         [(novelty.is_some(), "training.novelty"), (until_reached, "training.until_reached")]
@@ -286,6 +286,11 @@ fn novelty(scenario: &Scenario, found: &mut Vec<Complaint>) {
             let detail = "found new pairs each time, expected pairs.resample = false";
             found.push(Complaint::new("pairs.resample", title, detail).or_at(key));
         }
+    }
+    if novelty.is_some() && islands > 1 {
+        let title = "a search by novelty has one population";
+        let detail = format!("found {islands} islands, expected 1");
+        found.push(Complaint::new("training.islands", title, detail).or_at("training.novelty"));
     }
     if let Some(Err(error)) = novelty.map(|novelty| novelty.check(population)) {
         let (value, expected) = (error.found, error.expected);

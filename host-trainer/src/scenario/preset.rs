@@ -18,8 +18,7 @@ pub enum Preset {
     Paper,
     /// Drives clean where it has never been: more pairs, other costs, another mutation.
     Robust,
-    /// Goes on from a champion that the one above has trained: small changes, and half of the drives
-    /// under stress.
+    /// Goes on from a champion: as the one above, with one population and small changes.
     Refine,
     /// `Robust` in many random worlds: one controller for places that nobody has described.
     Generalist,
@@ -131,6 +130,7 @@ pub(super) fn paper() -> Scenario {
         },
         training: TrainingSpec {
             population: 120,
+            islands: 1,
             generations: 60,
             weight_bound: 1.0,
             validation_pairs: 0,

@@ -164,6 +164,7 @@ fn any_training() -> impl Strategy<Value = TrainingSpec> {
         let [stressed_share, stressed_share_start, footprint_padding] = others;
         TrainingSpec {
             population,
+            islands: if novelty.is_some() { 1 } else { 1 + population % 5 },
             generations,
             weight_bound,
             validation_pairs,
@@ -351,6 +352,15 @@ fn the_preset_robust_wins_over_the_file_and_an_option_over_both() {
     assert_eq!((&set.pairs, set.episode), (&robust.pairs, robust.episode));
     assert_eq!(set.world, super::load(&source, None, &[]).unwrap().world);
     assert_eq!(load(&[Setting::set("training.population=50")]).training.population, 50);
+}
+
+#[test]
+fn every_preset_says_how_many_islands_there_are() {
+    let file = Source::new("a.toml", "[training]\nislands = 3", Path::new(""));
+    for preset in Preset::ALL.into_iter().filter(|preset| *preset != Preset::Paper) {
+        let training = load(&file, Some(preset), &[]).unwrap().training;
+        assert_eq!(training.islands, preset.scenario().training.islands, "{}", preset.name());
+    }
 }
 
 /// What is said of drawing says nothing where pairs are listed, but pairs that are listed for one

@@ -161,6 +161,8 @@ const GEOMETRY: &[&str] = &[
     "[pairs]\ncount = 5\n[training]\nuntil_reached = true\nfootprint_padding_m = 0.05",
     "[training]\npopulation = 5\n[training.novelty]\narchive_growth = 6",
     "[training.novelty]\nneighbours = 0",
+    "[training]\nislands = 3\n[training.novelty]\nneighbours = 15",
+    "[training]\nislands = 0",
     "[training.novelty]\nneighbors = 15",
     "[training.worlds]\nside_m = [8, 12]",
     "[training.worlds]\nboxes = 6",

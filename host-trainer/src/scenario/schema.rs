@@ -4,7 +4,7 @@
 
 use super::number::{Number, OrInfinite, Whole};
 use super::problem::Problem;
-use super::shapes::{self, Area, List, Point, Pose, UnlessDefault};
+use super::shapes::{self, Area, List, Point, Pose, Unless};
 use super::value::Found;
 use super::words::{DISTANCE_LAW, Flag, Line, MUTATION, Name, SELECTION, Step, Text, Word};
 use super::*;
@@ -283,6 +283,9 @@ impl Record for TrainingSpec {
     fn visit(&mut self, v: &mut impl Visit) {
         let population = Whole::within(Self::POPULATION);
         v.value("population", &mut self.population, population, "individuals");
+        let islands = Unless(1, Whole::within(Self::ISLANDS));
+        let about = "populations side by side, of which one is left in the end; one if left out";
+        v.value("islands", &mut self.islands, islands, about);
         let generations = Whole::within(Self::GENERATIONS);
         v.value("generations", &mut self.generations, generations, "");
         let bound = Number::plain(0.0, 1000.0).above();
@@ -292,18 +295,18 @@ impl Record for TrainingSpec {
         v.value("validation_pairs", validation, pairs, "choose the champion; 0: the last best");
         let share = &mut self.stressed_share;
         let about = "drives under stress in the last generation; none if left out";
-        v.value("stressed_share", share, UnlessDefault(SHARE), about);
+        v.value("stressed_share", share, Unless(0.0, SHARE), about);
         let share = &mut self.stressed_share_start;
         let about = "drives under stress in the first generation; none if left out";
-        v.value("stressed_share_start", share, UnlessDefault(SHARE), about);
+        v.value("stressed_share_start", share, Unless(0.0, SHARE), about);
         let about = "of drives under stress, half lack dead time or slow servo; off if left out";
-        v.value("stress_in_turns", &mut self.stress_in_turns, UnlessDefault(Flag), about);
-        let metres = UnlessDefault(Number::metres(0.0, 1.0));
+        v.value("stress_in_turns", &mut self.stress_in_turns, Unless(false, Flag), about);
+        let metres = Unless(0.0, Number::metres(0.0, 1.0));
         let about = "how much larger every other car is, on every side; no larger if left out";
         v.value("footprint_padding_m", &mut self.footprint_padding, metres, about);
         let until_reached = &mut self.until_reached;
         let about = "end when somebody reaches all targets; off if left out";
-        v.value("until_reached", until_reached, UnlessDefault(Flag), about);
+        v.value("until_reached", until_reached, Unless(false, Flag), about);
         v.optional_section("worlds", &mut self.worlds, WorldsSpec::NONE);
         v.section("ga", &mut self.ga);
         v.optional_section("novelty", &mut self.novelty, NoveltySpec::USUAL);
@@ -318,12 +321,12 @@ impl Record for WorldsSpec {
         v.value("rooms", &mut self.rooms, count, "worlds with rooms and doors");
         v.value("barn_like", &mut self.barn_like, count, "fields of cylinders, like BARN's");
         let about = "worlds with thin walls that make dead ends; none if left out";
-        v.value("partitions", &mut self.partitions, UnlessDefault(count), about);
+        v.value("partitions", &mut self.partitions, Unless(0, count), about);
         v.value("side_m", &mut self.side, shapes::Sides, "[shortest, longest] side of a world");
-        let generations = UnlessDefault(Whole { low: 0, high: *TrainingSpec::GENERATIONS.end() });
+        let generations = Unless(0, Whole { low: 0, high: *TrainingSpec::GENERATIONS.end() });
         let about = "generations after which one is replaced; none is if left out";
         v.value("renew_every", &mut self.renew_every, generations, about);
-        let times = UnlessDefault(Whole { low: 0, high: Self::MOST });
+        let times = Unless(0, Whole { low: 0, high: Self::MOST });
         let about = "times as many others choose among the last generation; none if left out";
         v.value("held_out", &mut self.held_out, times, about);
     }

@@ -71,20 +71,20 @@ impl<T, C: Codec<T>> Codec<Option<T>> for Maybe<C> {
     }
 }
 
-/// A setting that stands for something that is not there unless given; then it is not written.
-pub(super) struct UnlessDefault<C>(pub(super) C);
+/// A setting that has this value unless given; then it is not written.
+pub(super) struct Unless<T, C>(pub(super) T, pub(super) C);
 
-impl<T: Default + PartialEq, C: Codec<T>> Codec<T> for UnlessDefault<C> {
+impl<T: PartialEq, C: Codec<T>> Codec<T> for Unless<T, C> {
     fn read(&self, found: &Found<'_>, problems: &mut Vec<Problem>) -> Option<T> {
-        self.0.read(found, problems)
+        self.1.read(found, problems)
     }
 
     fn write(&self, value: &T) -> Option<String> {
-        if *value == T::default() { None } else { self.0.write(value) }
+        if *value == self.0 { None } else { self.1.write(value) }
     }
 
     fn expected(&self) -> String {
-        self.0.expected()
+        self.1.expected()
     }
 }
 

@@ -94,6 +94,7 @@ const COMMAND_LINES: &[&str] = &[
     "train --set pairs.count=0",
     "train --set training.ga.mutation_rate=2",
     "train open --population 1000000",
+    "train open --population 20000 --set training.islands=64",
     "train open --set pairs.count=100000 --population 200",
     "train open --set pairs.min_distance_m=13",
     "train open --from depot",

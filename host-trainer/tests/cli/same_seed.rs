@@ -77,14 +77,18 @@ fn a_run_that_is_resumed_to_more_generations_ends_as_the_longer_run_does() {
 
 #[test]
 fn a_run_that_changes_on_its_way_is_not_resumed_to_another_number_of_generations() {
-    let bench = Bench::new();
-    bench.train("open", "a", &["--preset=robust", "--set=training.validation_pairs=5"]).ends_in(0);
-    let before = bench.all_files("a");
-    let done = bench.say("train --resume a --generations 5").ends_in(2);
-    let expected = "from its first generation to its last, generation 3; expected that number";
-    assert!(done.stderr.contains(expected), "{}", done.stderr);
-    assert!(before == bench.all_files("a"));
-    bench.say("train --resume a --generations 3").ends_in(0);
+    let several = ["--preset=robust", "--set=training.validation_pairs=5"];
+    let islands = ["--set=training.islands=2"];
+    for (folder, settings) in [("a", &several[..]), ("b", &islands)] {
+        let bench = Bench::new();
+        bench.train("open", folder, settings).ends_in(0);
+        let before = bench.all_files(folder);
+        let done = bench.say(&format!("train --resume {folder} --generations 5")).ends_in(2);
+        let expected = "from its first generation to its last, generation 3; expected that number";
+        assert!(done.stderr.contains(expected), "{}", done.stderr);
+        assert!(before == bench.all_files(folder));
+        bench.say(&format!("train --resume {folder} --generations 3")).ends_in(0);
+    }
 }
 
 #[test]

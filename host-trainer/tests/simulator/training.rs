@@ -78,6 +78,11 @@ fn stressed() -> String {
     CHANGING.replace("generations = 12", settings)
 }
 
+/// The same on three islands, of which two are left after eight of twelve generations, and one after ten.
+fn apart() -> String {
+    CHANGING.replace("population = 40", "population = 20\n    islands = 3")
+}
+
 /// The same in random worlds instead of the scenario's own.
 fn elsewhere() -> String {
     let worlds = "[training.worlds]\nboxes = 2\nbarn_like = 1\nside_m = [6, 9]\n[training.ga]";
@@ -120,12 +125,16 @@ fn trained(problem: &Problem, threads: usize, generations: u32) -> Vec<u8> {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
-    let runs = [EXACT, NOISY, CHANGING, &stressed(), &elsewhere(), &ever_elsewhere(), NOVEL];
+    let (stressed, elsewhere, ever_elsewhere) = (&stressed(), &elsewhere(), &ever_elsewhere());
+    let runs = [EXACT, NOISY, CHANGING, stressed, &apart(), elsewhere, ever_elsewhere, NOVEL];
     for settings in runs {
+        // Until islands have left.
+        let generations = if settings.contains("islands") { 11 } else { 3 };
         let problem = Problem::new(from_toml(settings)).unwrap();
-        let alone = trained(&problem, 1, 3);
+        let alone = trained(&problem, 1, generations);
         for threads in [2, 7] {
-            assert!(trained(&problem, threads, 3) == alone, "{threads} threads: {settings}");
+            let together = trained(&problem, threads, generations);
+            assert!(together == alone, "{threads} threads: {settings}");
         }
     }
 }
@@ -138,6 +147,8 @@ fn a_run_goes_on_from_its_snapshot_as_if_nothing_had_happened() {
         (NOISY, 2),
         (CHANGING, 9),
         (stressed, 2),
+        (&apart(), 7),
+        (&apart(), 9),
         (elsewhere, 2),
         (ever_elsewhere, 9),
         (NOVEL, 4),
@@ -156,6 +167,18 @@ fn a_run_goes_on_from_its_snapshot_as_if_nothing_had_happened() {
         }
         assert!(bytes(&resumed) == trained(&problem, 1, before + 2), "{settings}");
     }
+}
+
+#[test]
+fn islands_that_were_given_up_are_driven_no_more() {
+    let problem = Problem::new(from_toml(&apart())).unwrap();
+    let mut training = Training::new(&problem, RunSeed(5)).unwrap();
+    let mut individuals = Vec::new();
+    while !training.is_over() {
+        training.step().unwrap();
+        individuals.push(training.ends().len());
+    }
+    assert_eq!(individuals, [[60; 8].as_slice(), &[40; 2], &[20; 2]].concat());
 }
 
 #[test]

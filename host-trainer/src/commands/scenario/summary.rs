@@ -35,8 +35,10 @@ pub(super) struct Summary {
     target_radius_m: f32,
     car: Car,
     sensors: Sensors,
-    /// How many pairs training drives at a time.
+    /// How many pairs training drives in the first generation.
     pairs: u32,
+    /// How many in the last.
+    pairs_end: u32,
     /// `listed`, `drawn`, or `drawn anew each generation`.
     pairs_are: &'static str,
     min_distance_m: f32,
@@ -47,8 +49,12 @@ pub(super) struct Summary {
     period_s: f32,
     on_collision: &'static str,
     population: u32,
+    /// Populations at the beginning; one is left in the end.
+    islands: u32,
+    #[serde(skip)]
+    individuals_in_words: String,
     generations: u32,
-    /// Steps of a training run whose every drive goes on to the limit.
+    /// Steps of a training run whose every drive goes on to the limit, and of whose islands none leaves.
     most_steps: u64,
 }
 
@@ -154,9 +160,12 @@ impl Summary {
             PairSource::Drawn { count, resample: false } => ("drawn", *count),
             PairSource::Drawn { count, resample: true } => ("drawn anew each generation", *count),
         };
-        let most_steps = [training.population, training.generations, count, episode.step_limit]
+        let pairs_end = pairs.count_end.unwrap_or(count);
+        let most_steps = [training.generations, count.max(pairs_end), episode.step_limit]
             .into_iter()
-            .fold(1_u64, |product, factor| product.saturating_mul(u64::from(factor)));
+            .fold(training.individuals(), |product, factor| {
+                product.saturating_mul(u64::from(factor))
+            });
         Self {
             name: name.clone(),
             description: description.clone(),
@@ -171,6 +180,7 @@ impl Summary {
             car: Car::of(&problem.scenario),
             sensors: Sensors::of(&problem.scenario),
             pairs: count,
+            pairs_end,
             pairs_are,
             min_distance_m: pairs.min_distance,
             network: problem.topology().to_string(),
@@ -182,6 +192,8 @@ impl Summary {
                 OnCollision::Stop => "stop",
             },
             population: training.population,
+            islands: training.islands,
+            individuals_in_words: training.individuals_in_words(),
             generations: training.generations,
             most_steps,
         }
@@ -223,13 +235,18 @@ impl Summary {
         row(
             "training",
             format!(
-                "{} individuals × {} generations × {}: at most {} steps",
-                self.population,
+                "{} × {} generations × {}: at most {} steps",
+                self.individuals_in_words,
                 self.generations,
-                counted(self.pairs, "pair"),
+                self.pairs_at_a_time(),
                 rounded(self.most_steps)
             ),
         );
+    }
+
+    fn pairs_at_a_time(&self) -> String {
+        let last = counted(self.pairs_end, "pair");
+        if self.pairs == self.pairs_end { last } else { format!("{} to {last}", self.pairs) }
     }
 
     fn free(&self) -> String {

@@ -43,7 +43,7 @@ fn variant(row: &Row) -> Vec<String> {
     };
     vec![
         row.variant.clone(),
-        format!("{} × {}", row.population, row.generations),
+        size(row),
         row.training.to_string(),
         format!("{} of {}", row.all_reached.count, row.all_reached.of),
         range(&row.unseen_reached),
@@ -51,6 +51,14 @@ fn variant(row: &Row) -> Vec<String> {
         against(&row.training_against_paper),
         against(&row.unseen_against_paper),
     ]
+}
+
+fn size(row: &Row) -> String {
+    let Row { islands, population, generations, .. } = row;
+    match islands {
+        1 => format!("{population} × {generations}"),
+        _ => format!("{islands} × {population} × {generations}"),
+    }
 }
 
 /// How to read the table of variants.
@@ -72,7 +80,7 @@ pub(super) fn explained(results: &SceneResults) -> String {
     }
     let whats = whats.join("; ");
     format!(
-        "{whats}. Size: individuals × generations. Training pairs are those of all seeds together, \
+        "{whats}. Size: individuals × generations, before them the islands if there are several. Training pairs are those of all seeds together, \
          with Wilson's 95 % interval; all of them: runs that reached all of their pairs. Unseen \
          pairs: the median over the seeds, with the least and the most; clean is reached without \
          one collision.{medians} The last columns count the seeds on which a variant did better or \
