@@ -51,13 +51,25 @@ impl Outlook {
     pub fn progress(&self, generation: u32) -> f64 {
         progress(generation, self.generations)
     }
+
+    /// Whether a generation lies at this part of the run, a fraction, or past it: to the generation, where
+    /// [`Self::progress`] is rounded.
+    pub(super) fn is_past(&self, generation: u32, (part, of): (u32, u32)) -> bool {
+        let last = last(self.generations);
+        u64::from(generation.min(last)) * u64::from(of) >= u64::from(part) * u64::from(last)
+    }
 }
 
 /// How far a generation, counted from 0, lies on the way from the first of `generations` (0) to
 /// the last (1).
 pub fn progress(generation: u32, generations: u32) -> f64 {
-    let last = generations.saturating_sub(1).max(1);
+    let last = last(generations);
     f64::from(generation.min(last)) / f64::from(last)
+}
+
+/// The last generation, at least 1.
+fn last(generations: u32) -> u32 {
+    generations.saturating_sub(1).max(1)
 }
 
 /// The genetic algorithm with its settings, at some generation of some run.

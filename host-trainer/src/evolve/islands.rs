@@ -77,20 +77,16 @@ impl Islands {
     fn left(&self, generation: u32) -> usize {
         // Of `rounds`, number `round` is over at this part of the second half.
         let rounds = self.count.next_power_of_two().ilog2();
-        let is_over = |round| self.is_past(generation, (rounds + 1 + round, 2 * (rounds + 1)));
+        let is_over =
+            |round| self.outlook.is_past(generation, (rounds + 1 + round, 2 * (rounds + 1)));
         let over = (1..=rounds).filter(|round| is_over(*round)).count();
         (0..over).fold(self.count, |left, _| left.div_ceil(2))
     }
 
-    /// Whether a generation lies at this part of the run, a fraction, or past it.
-    fn is_past(&self, generation: u32, (part, of): (u32, u32)) -> bool {
-        let last = u64::from(self.outlook.generations.saturating_sub(1).max(1));
-        u64::from(generation).min(last) * u64::from(of) >= u64::from(part) * last
-    }
-
     /// Whether islands are compared in this generation: in the second half, and if some leave after it.
     fn compares(&self, generation: u32) -> bool {
-        self.is_past(generation, (1, 2)) || self.left(generation + 1) < self.left(generation)
+        self.outlook.is_past(generation, (1, 2))
+            || self.left(generation + 1) < self.left(generation)
     }
 
     /// Counts for each island how many are better in this generation.
@@ -293,7 +289,7 @@ mod tests {
     #[test]
     fn of_equal_islands_the_first_stay() {
         let mut islands = islands(6, 20);
-        while !islands.is_past(islands.generation(), (3, 4)) {
+        while !islands.outlook.is_past(islands.generation(), (3, 4)) {
             tell(&mut islands, |_, _| 1.0);
         }
         assert_eq!(numbers(&islands), [0, 1]);
