@@ -39,6 +39,9 @@ pub trait Vector: Lane + Pod + fmt::Debug {
     /// The mask as bits, lane 0 lowest.
     fn bits(mask: Self::Mask) -> u32;
 
+    /// Negated where the other number has a sign, be it zero or NaN.
+    fn flipped_by(self, other: Self) -> Self;
+
     /// The lanes as whole numbers; they must be from 0 to 2²⁴. Those past the width are 0.
     fn places(self) -> [u32; MOST_LANES];
 
@@ -109,6 +112,11 @@ impl Vector for f32 {
     #[inline(always)]
     fn bits(mask: bool) -> u32 {
         u32::from(mask)
+    }
+
+    #[inline(always)]
+    fn flipped_by(self, other: Self) -> Self {
+        if other.is_sign_negative() { -self } else { self }
     }
 
     #[inline(always)]

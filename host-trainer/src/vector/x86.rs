@@ -304,6 +304,12 @@ impl Vector for Wide4 {
     }
 
     #[inline(always)]
+    fn flipped_by(self, other: Self) -> Self {
+        // SAFETY: this type is only named where the CPU has its instructions.
+        Self(unsafe { _mm_xor_ps(self.0, _mm_and_ps(other.0, _mm_set1_ps(-0.0))) })
+    }
+
+    #[inline(always)]
     fn places(self) -> [u32; MOST_LANES] {
         let mut places = [0; MOST_LANES];
         // SAFETY: this type is only named where the CPU has its instructions; there is room.
@@ -334,6 +340,12 @@ impl Vector for Wide8 {
     fn bits(mask: Mask8) -> u32 {
         // SAFETY: this type is only named where the CPU has its instructions.
         unsafe { _mm256_movemask_ps(mask.0) as u32 }
+    }
+
+    #[inline(always)]
+    fn flipped_by(self, other: Self) -> Self {
+        // SAFETY: this type is only named where the CPU has its instructions.
+        Self(unsafe { _mm256_xor_ps(self.0, _mm256_and_ps(other.0, _mm256_set1_ps(-0.0))) })
     }
 
     #[inline(always)]
@@ -369,6 +381,12 @@ impl Vector for Wide16 {
     #[inline(always)]
     fn bits(mask: Mask16) -> u32 {
         u32::from(mask.0)
+    }
+
+    #[inline(always)]
+    fn flipped_by(self, other: Self) -> Self {
+        // SAFETY: this type is only named where the CPU has its instructions.
+        Self(unsafe { _mm512_xor_ps(self.0, _mm512_and_ps(other.0, _mm512_set1_ps(-0.0))) })
     }
 
     #[inline(always)]

@@ -103,7 +103,7 @@ impl<V: Vector> Networks<V> {
 
     /// Forgets what one car's network remembers.
     pub(super) fn forget(&mut self, slot: usize, lane: usize) {
-        self.memory.visit(&mut |output| output.0[slot].lanes_mut()[lane] = 0.0);
+        self.memory.forget(slot * V::WIDTH + lane);
     }
 
     /// All hidden outputs of one car's network, first layer then second.
@@ -153,6 +153,9 @@ trait Memory<V> {
         outputs: &mut [All<V>],
     );
 
+    /// Forgets the hidden outputs of one car, of all slots' cars in a row.
+    fn forget(&mut self, car: usize);
+
     /// Shows every hidden output, first layer then second.
     fn visit(&mut self, look: &mut dyn FnMut(&mut All<V>));
 }
@@ -192,6 +195,13 @@ impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Memory<V> for Siz
             (Weights::OfCars(weights), _) => {
                 self.step_with::<SLOTS, SLOTS>(weights, inputs, outputs);
             }
+        }
+    }
+
+    fn forget(&mut self, car: usize) {
+        let State { first, second } = &mut self.state;
+        for output in first.iter_mut().chain(second) {
+            output.numbers_mut()[car] = 0.0;
         }
     }
 

@@ -44,15 +44,15 @@ mod shelf;
 mod words;
 
 use super::obstacles::Obstacles;
-use crate::vector::Vector;
-use asked::Asked;
+use crate::vector::{Vector, ones};
+use asked::{Asked, ByNames};
 use beams::Met;
-use cell::{BINS, SECTORS};
+use cell::SECTORS;
 use controller_core::geometry::{Body, Disc, Ray, Segment};
 use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
 use field::Field;
-use grid::{Grid, part_of_turn};
+use grid::{Grid, Turned};
 use rounding::MOST_ERROR;
 use shelf::{Question, Shelf, Sure};
 use std::sync::Arc;
@@ -99,7 +99,7 @@ impl Lookout {
         live: &[u32; N],
         glance: &mut Glance<V, N, Q>,
     ) {
-        let Glance { rays, distances, bins, met, asked } = glance;
+        let Glance { rays, distances, asked } = glance;
         let cars = || (0..N).filter(|car| live[*car] != 0);
         if let Some(field) = &self.field {
             for car in cars() {
@@ -110,48 +110,85 @@ impl Lookout {
         }
         // First where everything lies that is to be loaded, then loading it, then everything that is
         // to be computed: so the CPU never waits for the one to begin the other.
+        let mut cells = [V::from(0.0); N];
         for car in cars() {
             fan.cast(&poses[car], &mut rays[car]);
-            let mut shelves = self.shelf.shelves(self.grid.locate(rays[car][0].origin));
+            cells[car] = self.grid.locate(rays[car][0].origin);
+            self.shelf.fetch_shelves(cells[car]);
+        }
+        for car in cars() {
+            let heading = Turned::by(poses[car].heading);
+            let mut shelves = self.shelf.shelves(cells[car]);
             for beam in 0..BEAMS {
                 if beam > 0 && !fan.has_one_origin() {
                     shelves = self.shelf.shelves(self.grid.locate(rays[car][beam].origin));
                 }
-                let bin = part_of_turn::<V, BINS>(fan.angle(beam, &poses[car]));
-                self.shelf.ask_seen(asked, car * BEAMS + beam, &shelves, bin);
+                let bins = fan.bins(beam, heading);
+                self.shelf.ask_seen(asked, car * BEAMS + beam, &shelves, bins);
                 // What the beams between them ask for mostly lies in the same lines of the cache.
                 if beam % 2 == 0 {
                     self.shelf.fetch_seen::<V, Q>(asked, car * BEAMS + beam);
                 }
-                bins[car][beam] = bin;
-                met[car][beam] = Met::nothing();
             }
         }
-        self.shelf.answer_seen::<V, Q>(asked, live);
-        let (rays, met) = (rays.as_flattened(), met.as_flattened_mut());
-        for round in 0..Asked::<Q>::ROUNDS {
-            for index in asked.with_name(round) {
-                let rows = self.shelf.edges(asked, index, round);
-                if self.shelf.has_discs() {
-                    met[index].any(&rays[index], rows);
-                } else {
-                    met[index].wall(&rays[index], rows);
+        let questions = self.shelf.answer_seen::<V, Q>(asked, live);
+        let (rays, distances) = (rays.as_flattened(), distances.as_flattened_mut());
+        // Four times the same code, so that nobody has to ask this for each obstacle.
+        let open = match (self.shelf.is_large(), self.shelf.has_discs()) {
+            (false, false) => self.meet::<V, Q, false, false>(asked, questions, rays, distances),
+            (false, true) => self.meet::<V, Q, false, true>(asked, questions, rays, distances),
+            (true, false) => self.meet::<V, Q, true, false>(asked, questions, rays, distances),
+            (true, true) => self.meet::<V, Q, true, true>(asked, questions, rays, distances),
+        };
+        for question in ones(open) {
+            asked.close::<V>(question, live[question / BEAMS]);
+            self.shelf.fetch_whole(asked, question);
+        }
+        for question in ones(open) {
+            let (car, beam) = (question / BEAMS, question % BEAMS);
+            let (ray, distance) = (&rays[question], &mut distances[question]);
+            for lane in ones(asked.open(question)) {
+                let heading = poses[car].heading.lanes()[lane];
+                let ray = beams::in_lane(ray, lane);
+                let distance = &mut distance.lanes_mut()[lane];
+                *distance = match self.by_whole(&ray, asked, question, lane) {
+                    Some(distance) => distance,
+                    None => self.settled(&ray, fan.bins(beam, Turned::by(heading)) as u32),
+                };
+            }
+        }
+    }
+
+    /// Tests each question's beams with what its words name; returns the questions that are left open in any lane.
+    #[inline(always)]
+    fn meet<V: Vector, const Q: usize, const IS_LARGE: bool, const HAS_DISCS: bool>(
+        &self,
+        asked: &mut Asked<Q>,
+        questions: ByNames,
+        rays: &[Ray<V>],
+        distances: &mut [V],
+    ) -> u32 {
+        let mut all_open = 0;
+        // All with as many names one after the other, so that the CPU knows beforehand how often to go round.
+        for (names, questions) in questions.into_iter().enumerate() {
+            for question in ones(questions) {
+                let ray = &rays[question];
+                let mut met = Met::nothing();
+                for round in 0..names {
+                    let rows = self.shelf.edges::<V, Q, IS_LARGE>(asked, question, round);
+                    if HAS_DISCS {
+                        met.any(ray, rows);
+                    } else {
+                        met.wall(ray, rows);
+                    }
                 }
-            }
-        }
-        for car in cars() {
-            for beam in 0..BEAMS {
-                let question = car * BEAMS + beam;
-                let (met, distance) = (&met[question], &mut distances[car][beam]);
-                *distance = met.nearest(self.range);
+                distances[question] = met.nearest(self.range);
                 let doubtful = V::bits(met.doubtful(self.slack));
-                let mut open = (asked.unknown::<V>(question) | doubtful) & live[car];
-                if open != 0 {
-                    open &= asked.unsure::<V>(question);
-                    self.settle(&rays[question], bins[car][beam], open, distance);
-                }
+                let is_open = asked.leave_open::<V>(question, doubtful);
+                all_open |= u32::from(is_open) << question;
             }
         }
+        all_open
     }
 
     /// Which of the bodies at these poses touch an obstacle's edge, or lie inside a disc, as
@@ -171,58 +208,67 @@ impl Lookout {
             }
         }
         let mut asked = Asked::<N>::new();
-        let mut sectors = [V::from(0.0); N];
         for car in 0..N {
             if live[car] == 0 {
                 continue;
             }
             let shelves = self.shelf.shelves(self.grid.locate((poses[car].x, poses[car].y)));
-            sectors[car] = part_of_turn::<V, SECTORS>(poses[car].heading);
-            self.shelf.ask_near(&mut asked, car, &shelves, sectors[car]);
+            let sectors = Turned::<V, SECTORS>::by(poses[car].heading).part();
+            self.shelf.ask_near(&mut asked, car, &shelves, sectors);
         }
-        self.shelf.answer_near::<V, N>(&mut asked, &live);
+        let by_names = self.shelf.answer_near::<V, N>(&mut asked, &live);
         let Body { rear, front, half_width } = *body;
         let wide =
             Body { rear: V::from(rear), front: V::from(front), half_width: V::from(half_width) };
         let mut touched = [0; N];
-        for round in 0..Asked::<N>::ROUNDS {
-            for car in asked.with_name(round) {
-                let [a, b, c, d] = self.shelf.faces(&asked, car, round);
-                let wall = Segment { a: (a, b), b: (c, d) };
-                let mut touches = wide.touches_segment(&poses[car], &wall);
-                if self.shelf.has_discs() {
-                    let is_disc = beams::are_discs(&[a, b, c, d]);
-                    let disc = Disc { centre: (a, b), radius: c };
-                    let in_disc = wide.touches_disc(&poses[car], &disc);
-                    touches = (touches & !is_disc) | (in_disc & is_disc);
+        for (names, cars) in by_names.into_iter().enumerate().skip(1) {
+            for car in ones(cars) {
+                for round in 0..names {
+                    let [a, b, c, d] = self.shelf.faces(&asked, car, round);
+                    let wall = Segment { a: (a, b), b: (c, d) };
+                    let mut touches = wide.touches_segment(&poses[car], &wall);
+                    if self.shelf.has_discs() {
+                        let is_disc = beams::are_discs(&[a, b, c, d]);
+                        let disc = Disc { centre: (a, b), radius: c };
+                        let in_disc = wide.touches_disc(&poses[car], &disc);
+                        touches = (touches & !is_disc) | (in_disc & is_disc);
+                    }
+                    touched[car] |= V::bits(touches);
                 }
-                touched[car] |= V::bits(touches);
             }
         }
         for car in 0..N {
             let open = asked.unknown::<V>(car) & live[car];
             touched[car] &= live[car] & !open;
             if open != 0 {
-                touched[car] |= self.settle_touch(body, &poses[car], sectors[car], open);
+                touched[car] |= self.settle_touch(body, &poses[car], open);
             }
         }
         touched
     }
 
-    /// Answers for beams whose word does not say everything, or that pass a wall's end too
-    /// closely to be sure.
-    #[cold]
+    /// The distance along a beam that passes the end of one of its word's walls too closely to be sure, if there is
+    /// a word that knows.
     #[inline(never)]
-    fn settle<V: Vector>(&self, ray: &Ray<V>, bins: V, open: u32, distance: &mut V) {
-        let cells = self.grid.locate(ray.origin);
-        for lane in (0..V::WIDTH).filter(|lane| open >> lane & 1 == 1) {
-            let number = |number: V| number.lanes()[lane] as u32;
-            let ray = beams::in_lane(ray, lane);
-            distance.lanes_mut()[lane] = self.settled(&ray, number(cells), number(bins));
-        }
+    fn by_whole<const N: usize>(
+        &self,
+        ray: &Ray<f32>,
+        asked: &Asked<N>,
+        question: usize,
+        lane: usize,
+    ) -> Option<f32> {
+        let mut met = Met::<f32>::nothing();
+        let beyond = self.shelf.each_of_whole(asked, question, lane, |row| met.any(ray, *row))?;
+        let nearest = met.nearest(self.range);
+        (nearest.min(self.range) <= beyond).then_some(nearest)
     }
 
-    fn settled(&self, ray: &Ray<f32>, cell: u32, bin: u32) -> f32 {
+    /// The distance along a beam whose word does not say everything, or that passes a wall's end too closely to be
+    /// sure.
+    #[cold]
+    #[inline(never)]
+    fn settled(&self, ray: &Ray<f32>, bin: u32) -> f32 {
+        let cell = self.grid.locate(ray.origin) as u32;
         let mut met = Met::<f32>::nothing();
         let question = Question::Seen(bin);
         let sure = self.shelf.each(&self.grid, &self.obstacles, cell, question, |row| {
@@ -251,12 +297,10 @@ impl Lookout {
         &self,
         body: &Body<f32>,
         pose: &Pose<V>,
-        sectors: V,
         open: u32,
     ) -> u32 {
-        let cells = self.grid.locate((pose.x, pose.y));
         let mut touched = 0;
-        for lane in (0..V::WIDTH).filter(|lane| open >> lane & 1 == 1) {
+        for lane in ones(open) {
             let number = |number: V| number.lanes()[lane];
             let pose = Pose {
                 x: number(pose.x),
@@ -265,7 +309,8 @@ impl Lookout {
                 cos: number(pose.cos),
                 sin: number(pose.sin),
             };
-            let (cell, sector) = (number(cells) as u32, number(sectors) as u32);
+            let cell = self.grid.locate((pose.x, pose.y)) as u32;
+            let sector = Turned::<f32, SECTORS>::by(pose.heading).part() as u32;
             let touches = self.settled_touch(body, &pose, cell, sector);
             touched |= u32::from(touches) << lane;
         }

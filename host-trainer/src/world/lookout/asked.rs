@@ -3,8 +3,11 @@
 use super::beams::Row;
 use super::legends::Meanings;
 use super::words::{AllWords, JOINT, NAME, NAMES, UNKNOWN, Word};
-use crate::vector::{MOST_LANES, RowOfLane, Vector, fetch, ones};
+use crate::vector::{MOST_LANES, RowOfLane, Vector, fetch};
 use std::sync::atomic::AtomicU16;
+
+/// Questions as bits, by how many names their longest word has.
+pub(super) type ByNames = [u32; NAMES + 1];
 
 /// Questions of `N` times several robots, and the words that answer them.
 ///
@@ -17,12 +20,11 @@ pub(super) struct Asked<const N: usize> {
     legends: [[u32; MOST_LANES]; N],
     /// What is set in any lane's word.
     any: [Word; N],
+    /// Lanes in which a question may have been left open, as bits.
+    open: [u32; N],
 }
 
 impl<const N: usize> Asked<N> {
-    /// Most rounds.
-    pub(super) const ROUNDS: usize = NAMES;
-
     /// No questions yet.
     #[inline(always)]
     pub(super) fn new() -> Self {
@@ -32,6 +34,7 @@ impl<const N: usize> Asked<N> {
             words: [[0; MOST_LANES]; N],
             legends: [[0; MOST_LANES]; N],
             any: [0; N],
+            open: [0; N],
         }
     }
 
@@ -58,15 +61,16 @@ impl<const N: usize> Asked<N> {
         }
     }
 
-    /// Writes down the words of all questions. They go by car, as many for each; those of a car without
-    /// a lane in `live` have no names.
+    /// Writes down the words of all questions; returns the questions by how many names their longest word
+    /// has. They go by car, as many for each; those of a car without a lane in `live` are not asked.
     #[inline(always)]
     pub(super) fn answer<V: Vector>(
         &mut self,
         numbers: &[AtomicU16],
         words: AllWords<'_>,
         live: &[u32],
-    ) {
+    ) -> ByNames {
+        let mut by_names = [0; NAMES + 1];
         for question in 0..N {
             if live[question * live.len() / N] == 0 {
                 self.any[question] = 0;
@@ -80,7 +84,9 @@ impl<const N: usize> Asked<N> {
                 any |= word;
             }
             self.any[question] = any;
+            by_names[longest(any)] |= 1 << question;
         }
+        by_names
     }
 
     /// The words of one question.
@@ -95,30 +101,39 @@ impl<const N: usize> Asked<N> {
         &self.legends[question]
     }
 
-    /// The questions with a name for this round in any lane.
-    #[inline(always)]
-    pub(super) fn with_name(&self, round: usize) -> impl Iterator<Item = usize> + use<N> {
-        let mut questions = 0;
-        for (number, any) in self.any.iter().enumerate() {
-            let name = (*any >> (round as u32 * NAME)) as u8;
-            questions |= u32::from(name != 0) << number;
-        }
-        ones(questions)
-    }
-
     /// Lanes whose word does not say everything, as bits.
     #[inline(always)]
     pub(super) fn unknown<V: Vector>(&self, question: usize) -> u32 {
         if self.any[question] & UNKNOWN == 0 { 0 } else { self.with::<V>(question, UNKNOWN) }
     }
 
-    /// Those and the lanes whose word relies on walls that meet.
+    /// Writes down in which lanes a question may be left open, of which these are doubtful; returns whether
+    /// there are any.
     #[inline(always)]
-    pub(super) fn unsure<V: Vector>(&self, question: usize) -> u32 {
-        self.with::<V>(question, UNKNOWN | JOINT)
+    pub(super) fn leave_open<V: Vector>(&mut self, question: usize, doubtful: u32) -> bool {
+        self.open[question] = doubtful | self.unknown::<V>(question);
+        self.open[question] != 0
     }
 
-    #[cold]
+    /// Closes a question where nobody in `live` asks, and where its word says everything and does not rely on
+    /// walls that meet.
+    #[inline(never)]
+    pub(super) fn close<V: Vector>(&mut self, question: usize, live: u32) {
+        self.open[question] &= live & self.with::<V>(question, UNKNOWN | JOINT);
+    }
+
+    /// In which lanes a question is open, as bits.
+    #[inline(always)]
+    pub(super) fn open(&self, question: usize) -> u32 {
+        self.open[question]
+    }
+
+    /// Where the number of one question's word is in each lane.
+    #[inline(always)]
+    pub(super) fn places(&self, question: usize) -> &[u32; MOST_LANES] {
+        &self.places[question]
+    }
+
     #[inline(never)]
     fn with<V: Vector>(&self, question: usize, flags: Word) -> u32 {
         let mut lanes = 0;
@@ -129,37 +144,29 @@ impl<const N: usize> Asked<N> {
     }
 }
 
-/// Rows of a large world.
-pub(super) struct ByPlace<'a> {
-    table: &'a [Row],
-    meanings: &'a Meanings,
-    /// Where each lane's name is among the meanings.
-    at: [u32; MOST_LANES],
+/// How many names the longest of some words has, of which this is set in any.
+#[inline(always)]
+fn longest(any: Word) -> usize {
+    (any & (JOINT - 1)).checked_ilog2().map_or(0, |last| (last / NAME) as usize + 1)
 }
 
-impl<'a> ByPlace<'a> {
-    /// Those of each word's name in this round, as its legend says.
-    #[inline(always)]
-    pub(super) fn new(
-        table: &'a [Row],
-        meanings: &'a Meanings,
-        words: &[Word; MOST_LANES],
-        legends: &[u32; MOST_LANES],
-        round: usize,
-    ) -> Self {
-        // By themselves, so that the compiler makes vectors of it.
-        let mut at = [0; MOST_LANES];
-        for lane in 0..MOST_LANES {
-            let name = (words[lane] >> (round as u32 * NAME)) as u32 & 0xff;
-            at[lane] = legends[lane] << NAME | name;
-        }
-        Self { table, meanings, at }
-    }
+/// Rows of a large world, of what each lane's word names in a round, as its legend says.
+#[derive(Clone, Copy)]
+pub(super) struct ByPlace<'a> {
+    /// By place, after one that nothing meets.
+    pub(super) table: &'a [Row],
+    pub(super) meanings: &'a Meanings,
+    pub(super) words: &'a [Word; MOST_LANES],
+    pub(super) legends: &'a [u32; MOST_LANES],
+    pub(super) round: usize,
 }
 
 impl RowOfLane for ByPlace<'_> {
     #[inline(always)]
     fn row(&self, lane: usize) -> &Row {
-        &self.table[self.meanings.at(self.at[lane])]
+        // Little-endian, as controller-core demands.
+        let names: &[u8] = bytemuck::must_cast_slice(self.words);
+        let name = names[lane * size_of::<Word>() + self.round];
+        &self.table[self.meanings.at(self.legends[lane], name)]
     }
 }

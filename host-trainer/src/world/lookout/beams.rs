@@ -77,7 +77,7 @@ impl<V: Vector> Met<V> {
     /// The numbers are those of [`Ray::to_segment`], operation by operation. Only the tests differ:
     /// a hit has `0 ≤ along ≤ den`, that is, neither `along` nor `den - along` is negative; and
     /// `den` = 0 needs no test of its own, since the quotient is then infinite or NaN, which no
-    /// minimum takes.
+    /// minimum takes. (So it does not matter that -0 turns the others' signs.)
     #[inline(always)]
     pub(super) fn wall(&mut self, ray: &Ray<V>, row: [V; 4]) {
         let (distance, inside) = wall_ahead(ray, row);
@@ -129,10 +129,8 @@ fn wall_ahead<V: Vector>(ray: &Ray<V>, [x, y, ex, ey]: [V; 4]) -> (V, V) {
     let den = dx * ey - dy * ex;
     let along = wx * dy - wy * dx;
     let ahead = wx * ey - wy * ex;
-    let flip = den.lt(zero);
-    let den_size = den.abs();
-    let along = V::select(flip, -along, along);
-    let ahead = V::select(flip, -ahead, ahead);
+    let (along, ahead, den_size) =
+        (along.flipped_by(den), ahead.flipped_by(den), den.flipped_by(den));
     let inside = (den_size - along).min(along);
     let hit = zero.le(ahead.min(inside));
     (V::select(hit, ahead / den_size, V::from(f32::INFINITY)), inside)

@@ -1,5 +1,8 @@
 //! The car's beams, ready to be turned by its heading.
 
+use super::cell::BINS;
+use super::grid::{Turned, parts_of_turn};
+use crate::vector::Vector;
 use controller_core::geometry::Ray;
 use controller_core::lane::Lane;
 use controller_core::motion::Pose;
@@ -20,6 +23,8 @@ struct Beam {
     mount: BeamMount,
     cos: f32,
     sin: f32,
+    /// Its angle in bins.
+    bins: f32,
 }
 
 impl Fan {
@@ -27,7 +32,7 @@ impl Fan {
     pub fn new(mounts: &[BeamMount; BEAMS], range: f32) -> Self {
         let beams = mounts.map(|mount| {
             let (sin, cos) = sin_cos(mount.angle);
-            Beam { mount, cos, sin }
+            Beam { mount, cos, sin, bins: parts_of_turn(mount.angle, BINS) }
         });
         let starts_with_first =
             |mount: &BeamMount| (mount.x, mount.y) == (mounts[0].x, mounts[0].y);
@@ -45,10 +50,10 @@ impl Fan {
         self.has_one_origin
     }
 
-    /// The directions of one beam of cars at these poses, radians.
+    /// The bins that one beam of cars with these headings lies in.
     #[inline(always)]
-    pub(super) fn angle<L: Lane>(&self, beam: usize, pose: &Pose<L>) -> L {
-        pose.heading + L::from(self.beams[beam].mount.angle)
+    pub(super) fn bins<V: Vector>(&self, beam: usize, heading: Turned<V, BINS>) -> V {
+        heading.part_beside(self.beams[beam].bins)
     }
 
     /// The beams of cars at these poses, rightmost first.

@@ -1,7 +1,6 @@
 //! What many cars see at once, and what is written down until they do.
 
 use super::asked::Asked;
-use super::beams::Met;
 use crate::vector::Vector;
 use controller_core::geometry::Ray;
 use controller_core::observation::BEAMS;
@@ -15,10 +14,6 @@ pub struct Glance<V, const N: usize, const Q: usize> {
     pub rays: [[Ray<V>; BEAMS]; N],
     /// How far they go, metres: the distance to the nearest obstacle, or infinity if there is none within range.
     pub distances: [[V; BEAMS]; N],
-    /// Their directions, as parts of a turn.
-    pub(super) bins: [[V; BEAMS]; N],
-    /// What was met of all that had to be tested.
-    pub(super) met: [[Met<V>; BEAMS]; N],
     /// What had to be tested.
     pub(super) asked: Asked<Q>,
 }
@@ -33,8 +28,6 @@ impl<V: Vector, const N: usize, const Q: usize> Default for Glance<V, N, Q> {
         Self {
             rays: [[ray; BEAMS]; N],
             distances: [[zero; BEAMS]; N],
-            bins: [[zero; BEAMS]; N],
-            met: [[Met::nothing(); BEAMS]; N],
             asked: Asked::new(),
         }
     }

@@ -169,17 +169,42 @@ impl Grid {
     }
 }
 
-/// Which of `PARTS` equal parts of a turn each angle lies in; `PARTS` is a power of two, the
-/// angles are radians within ±10. Part 0 has angle 0 in its middle; NaN is anywhere.
-#[inline(always)]
-pub(super) fn part_of_turn<V: Vector, const PARTS: u32>(angle: V) -> V {
-    const { assert!(PARTS.is_power_of_two()) };
-    let parts = V::from(PARTS as f32);
-    let zero = V::from(0.0);
-    let turned = nearest_integer(angle * V::from(PARTS as f32 / TAU));
-    let part = turned - nearest_integer(turned * V::from(1.0 / PARTS as f32)) * parts;
-    let part = V::select(part.lt(zero), part + parts, part);
-    V::select(zero.le(part) & part.lt(parts), part, zero)
+/// Angles in parts of a turn of which there are `PARTS`, up to half a turn to either side.
+#[derive(Clone, Copy)]
+pub(super) struct Turned<V, const PARTS: u32>(V);
+
+impl<V: Vector, const PARTS: u32> Turned<V, PARTS> {
+    /// Angles in radians within ±10; NaN is anywhere.
+    #[inline(always)]
+    pub(super) fn by(angle: V) -> Self {
+        const { assert!(PARTS.is_power_of_two()) };
+        let parts = PARTS as f32;
+        let turned = angle * V::from(parts / TAU);
+        let rest = turned - nearest_integer(turned * V::from(1.0 / parts)) * V::from(parts);
+        let is_within = rest.abs().le(V::from(0.5 * parts));
+        Self(V::select(is_within, rest, V::from(0.0)))
+    }
+
+    /// Which part each angle lies in. Part 0 has angle 0 in its middle.
+    #[inline(always)]
+    pub(super) fn part(self) -> V {
+        self.part_beside(0.0)
+    }
+
+    /// The same of angles that are so many [parts](parts_of_turn) to the left.
+    #[inline(always)]
+    pub(super) fn part_beside(self, parts: f32) -> V {
+        let (all, zero) = (V::from(PARTS as f32), V::from(0.0));
+        let part = nearest_integer(self.0 + V::from(parts));
+        let part = V::select(part.lt(zero), part + all, part);
+        V::select(part.lt(all), part, zero)
+    }
+}
+
+/// An angle in parts of a turn, up to half a turn to either side, radians.
+pub(super) fn parts_of_turn(angle: f32, parts: u32) -> f32 {
+    let turns = f64::from(angle) / std::f64::consts::TAU;
+    ((turns - libm::round(turns)) * f64::from(parts)) as f32
 }
 
 /// The nearest integer, for numbers up to 2²²; what is farther out comes out as some other
@@ -201,7 +226,7 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    /// Every direction that [`part_of_turn`] puts in this part, and a little more.
+    /// Every direction that [`Turned::part`] puts in this part, and a little more.
     pub(super) fn new(part: usize, parts: u32) -> Self {
         let whole = std::f64::consts::TAU;
         let middle = part as f64 * whole / f64::from(parts);

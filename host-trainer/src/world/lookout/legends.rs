@@ -19,7 +19,7 @@ const MOST_LEGENDS: usize = MOST_SHELVES;
 
 /// Each obstacle's place in the world plus 1, by legend and name; 0 is nothing.
 #[derive(Debug)]
-pub(super) struct Meanings(Box<[AtomicU32; MOST_LEGENDS << NAME]>);
+pub(super) struct Meanings(Box<[[AtomicU32; 1 << NAME]; MOST_LEGENDS]>);
 
 /// All legends.
 #[derive(Debug)]
@@ -50,21 +50,17 @@ pub(super) enum Naming<'a> {
 }
 
 impl Meanings {
-    /// What lies at a legend and a name: its place in the world plus 1.
+    /// What a name means by a legend: a place in the world plus 1.
     #[inline(always)]
-    pub(super) fn at(&self, index: u32) -> usize {
-        // No index is farther out; said so, it needs no test.
-        let index = index as usize & ((MOST_LEGENDS << NAME) - 1);
-        self.0[index].load(Ordering::Relaxed) as usize
+    pub(super) fn at(&self, legend: u32, name: u8) -> usize {
+        // No legend is farther out; said so, it needs no test.
+        let legend = legend as usize & (MOST_LEGENDS - 1);
+        self.0[legend][usize::from(name)].load(Ordering::Relaxed) as usize
     }
 
     fn mean(&self, legend: u32, name: u8, place: u32) {
-        self.0[index(legend, name) as usize].store(place + 1, Ordering::Relaxed);
+        self.0[legend as usize][usize::from(name)].store(place + 1, Ordering::Relaxed);
     }
-}
-
-fn index(legend: u32, name: u8) -> u32 {
-    legend << NAME | u32::from(name)
 }
 
 impl Legends {
@@ -85,7 +81,7 @@ impl Legends {
 
     /// The place in the world plus 1 that a name means.
     pub(super) fn meaning(&self, legend: u32, name: u8) -> usize {
-        self.meanings.at(index(legend, name))
+        self.meanings.at(legend, name)
     }
 
     /// The legend for a cell of this tile, which lies in this rectangle; a new one in a crowd. None

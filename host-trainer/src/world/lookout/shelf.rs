@@ -4,7 +4,7 @@
 //! large one a legend says what it means, and cells get a shelf when a car turns up. Memory is asked
 //! for at once, but what no car visits is never touched, and so takes none.
 
-use super::asked::{Asked, ByPlace};
+use super::asked::{Asked, ByNames, ByPlace};
 use super::beams::{self, Row};
 use super::cell::{BINS, SECTORS, Sight, Surroundings};
 use super::grid::Grid;
@@ -12,7 +12,7 @@ use super::kept::Kept;
 use super::legends::{Legends, MOST_NAMES, Naming};
 use super::rounding::Limits;
 use super::words::{JOINT, NAME, NAMES, UNKNOWN, Whole, Word, Words};
-use crate::vector::{ByName, MOST_LANES, Table, Vector};
+use crate::vector::{ByName, MOST_LANES, Table, Vector, fetch, ones};
 use crate::world::Obstacles;
 use controller_core::geometry::{Body, Segment};
 use std::sync::OnceLock;
@@ -48,6 +48,27 @@ struct Rows {
     all: Box<[Row]>,
     /// By name, in a small world.
     named: Table,
+}
+
+impl Rows {
+    /// The rows of each word's name in this round.
+    #[inline(always)]
+    fn rows<V: Vector, const N: usize>(
+        &self,
+        large: Option<&Large>,
+        asked: &Asked<N>,
+        question: usize,
+        round: usize,
+    ) -> [V; 4] {
+        let words = asked.words(question);
+        match large {
+            None => V::named(ByName { table: &self.named, words, byte: round }),
+            Some(Large { legends, .. }) => {
+                let (meanings, legends) = (legends.meanings(), asked.legends(question));
+                V::rows(ByPlace { table: &self.all, meanings, words, legends, round })
+            }
+        }
+    }
 }
 
 /// What a large world has besides.
@@ -191,6 +212,12 @@ impl Shelf {
         (self.surroundings.limits.slack * 1.25) as f32
     }
 
+    /// Whether names mean something else in each place.
+    #[inline(always)]
+    pub(super) fn is_large(&self) -> bool {
+        self.large.is_some()
+    }
+
     #[inline(always)]
     pub(super) fn has_discs(&self) -> bool {
         self.has_discs
@@ -246,8 +273,8 @@ impl Shelf {
         &self,
         asked: &mut Asked<N>,
         live: &[u32],
-    ) {
-        asked.answer::<V>(&self.seen, self.words.all(), live);
+    ) -> ByNames {
+        asked.answer::<V>(&self.seen, self.words.all(), live)
     }
 
     /// Answers what bodies can touch, likewise.
@@ -256,8 +283,18 @@ impl Shelf {
         &self,
         asked: &mut Asked<N>,
         live: &[u32],
-    ) {
-        asked.answer::<V>(&self.near, self.words.all(), live);
+    ) -> ByNames {
+        asked.answer::<V>(&self.near, self.words.all(), live)
+    }
+
+    /// Has fetched what says where these cells' shelves are.
+    #[inline(always)]
+    pub(super) fn fetch_shelves<V: Vector>(&self, cells: V) {
+        if let Some(large) = &self.large {
+            for cell in &cells.places()[..V::WIDTH] {
+                fetch(&large.spots, *cell as usize);
+            }
+        }
     }
 
     /// The shelves of these cells.
@@ -274,15 +311,17 @@ impl Shelf {
         all
     }
 
-    /// The obstacles of each word's name in this round, as beams meet them.
+    /// The obstacles of each word's name in this round, as beams meet them. Whether the world
+    /// [is large](Self::is_large), the caller says.
     #[inline(always)]
-    pub(super) fn edges<V: Vector, const N: usize>(
+    pub(super) fn edges<V: Vector, const N: usize, const IS_LARGE: bool>(
         &self,
         asked: &Asked<N>,
         question: usize,
         round: usize,
     ) -> [V; 4] {
-        self.rows(&self.edges, asked, question, round)
+        let large = if IS_LARGE { self.large.as_ref() } else { None };
+        self.edges.rows(large, asked, question, round)
     }
 
     /// The same as bodies meet them.
@@ -293,25 +332,33 @@ impl Shelf {
         question: usize,
         round: usize,
     ) -> [V; 4] {
-        self.rows(&self.faces, asked, question, round)
+        self.faces.rows(self.large.as_ref(), asked, question, round)
     }
 
+    /// Has the [`Whole`] of a question fetched wherever it is open.
     #[inline(always)]
-    fn rows<V: Vector, const N: usize>(
-        &self,
-        table: &Rows,
-        asked: &Asked<N>,
-        question: usize,
-        round: usize,
-    ) -> [V; 4] {
-        let words = asked.words(question);
-        match &self.large {
-            None => V::named(ByName { table: &table.named, words, byte: round }),
-            Some(Large { legends, .. }) => {
-                let (meanings, legends) = (legends.meanings(), asked.legends(question));
-                V::rows(ByPlace::new(&table.all, meanings, words, legends, round))
+    pub(super) fn fetch_whole<const N: usize>(&self, asked: &Asked<N>, question: usize) {
+        if let Some(large) = &self.large {
+            for lane in ones(asked.open(question)) {
+                fetch(&large.wholes, asked.places(question)[lane] as usize);
             }
         }
+    }
+
+    /// Calls `f` with every obstacle that the [`Whole`] of a question names in a lane; returns how far it is sure,
+    /// metres, as [`Sure::Within`]. None where there is none.
+    pub(super) fn each_of_whole<const N: usize>(
+        &self,
+        asked: &Asked<N>,
+        question: usize,
+        lane: usize,
+        f: impl FnMut(&Row),
+    ) -> Option<f32> {
+        let large = self.large.as_ref()?;
+        let whole = Whole::in_place(&large.wholes[asked.places(question)[lane] as usize])?;
+        let word = large.whole_words.all().of_number(whole.number());
+        self.each_named(&self.edges, asked.legends(question)[lane], word, f);
+        Some(whole.beyond(self.surroundings.range))
     }
 
     /// Calls `f` with every obstacle that is asked for, after looking around from its cell if nobody
@@ -328,13 +375,6 @@ impl Shelf {
         let spot @ Spot { shelf, legend } = self.spot(grid, obstacles, cell)?;
         let lists = self.lists[shelf as usize]
             .get_or_init(|| Box::new(self.look_around(grid, obstacles, cell, spot)));
-        if let (Question::Seen(bin), Some(large)) = (question, &self.large)
-            && let Some(whole) = Whole::in_place(&large.wholes[(shelf * BINS + bin) as usize])
-        {
-            let word = large.whole_words.all().of_number(whole.number());
-            self.each_named(&self.edges, legend, word, f);
-            return Some(Sure::Within(whole.beyond(self.surroundings.range)));
-        }
         let (kept, part, numbers, table, at) = match question {
             Question::Seen(bin) => (&lists.seen, bin, &self.seen, &self.edges, shelf * BINS + bin),
             Question::Near(sector) => {
