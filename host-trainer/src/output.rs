@@ -4,7 +4,7 @@
 //! | --- | --- | --- |
 //! | lines for people | standard output | standard error |
 //! | the one JSON object | – | standard output |
-//! | warnings, progress | standard error | standard error |
+//! | warnings, notes, progress | standard error | standard error |
 //!
 //! Nothing here panics. After the reader of a pipe has gone (`| head -1`) the rest is
 //! dropped in silence and the work goes on; a full disk is a failure, reported by
@@ -16,6 +16,7 @@ pub mod progress;
 mod stream;
 mod trials;
 
+use std::collections::HashSet;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write};
 
@@ -35,6 +36,8 @@ pub struct Output {
     json: bool,
     stdout: Stream,
     stderr: Stream,
+    /// Notes that were printed.
+    noted: HashSet<String>,
 }
 
 impl Output {
@@ -49,7 +52,12 @@ impl Output {
         stdout: impl Write + Send + 'static,
         stderr: impl Write + Send + 'static,
     ) -> Self {
-        Self { json, stdout: Stream::new(stdout), stderr: Stream::new(stderr) }
+        Self {
+            json,
+            stdout: Stream::new(stdout),
+            stderr: Stream::new(stderr),
+            noted: HashSet::new(),
+        }
     }
 
     /// Whether the result goes to a machine.
@@ -71,6 +79,14 @@ impl Output {
     /// Prints a warning: something the user should know and need not act on.
     pub fn warning(&mut self, text: impl Display) {
         self.stderr.write(format!("warning: {text}\n").as_bytes());
+    }
+
+    /// Prints a note: what was done that the user may not expect. Each text once.
+    pub fn note(&mut self, text: impl Display) {
+        let text = text.to_string();
+        if self.noted.insert(text.clone()) {
+            self.stderr.write(format!("note: {text}\n").as_bytes());
+        }
     }
 
     /// Prints a line of progress, to standard error.

@@ -35,6 +35,7 @@ use crate::seed::Stream;
 use crate::signals::StopFlag;
 use crate::vector::{Instructions, Kernel, Vector};
 use block::Block;
+pub(crate) use forward::step_of_slots;
 use queue::Queue;
 use tape::Tapes;
 

@@ -12,6 +12,9 @@ const ROUNDS: usize = 7;
 /// than AVX2 has registers for.
 const CHAINS: usize = 12;
 
+/// Vectors that are read one after the other without waiting.
+const READ_TOGETHER: usize = 8;
+
 /// One core's rates with one set of instructions, per nanosecond.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Peaks {
@@ -61,7 +64,7 @@ enum Work {
     Mixed,
     Div,
     Sqrt,
-    /// A sum over this much memory.
+    /// The largest number in this much memory.
     Load {
         bytes: usize,
     },
@@ -130,13 +133,16 @@ impl Kernel for Measure {
                 CHAINS * V::WIDTH
             }
             Work::Load { bytes } => {
+                // Only their largest is looked at: else each would be written to memory wherever it is read.
+                let mut largest = [one; READ_TOGETHER];
                 for _ in 0..self.rounds {
-                    for numbers in black_box(&memory).chunks_exact(8) {
-                        for (chain, number) in chains.iter_mut().zip(numbers) {
-                            *chain = chain.max(*number);
+                    for numbers in black_box(&memory).as_chunks::<READ_TOGETHER>().0 {
+                        for place in 0..READ_TOGETHER {
+                            largest[place] = largest[place].max(numbers[place]);
                         }
                     }
                 }
+                black_box(largest.into_iter().fold(zero, V::max));
                 bytes
             }
         };

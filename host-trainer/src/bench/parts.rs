@@ -7,7 +7,7 @@ use super::workload;
 use crate::problem::{Problem, training_drive};
 use crate::seed::RunSeed;
 use crate::vector::{Instructions, Kernel, Slots, Vector, Weight};
-use crate::wide::SLOTS;
+use crate::wide::{SLOTS, step_of_slots};
 use crate::world::{Fan, Glance, Lookout};
 use controller_core::activation::Rational;
 use controller_core::geometry::Body;
@@ -138,7 +138,7 @@ pub fn step_together(genomes: &[f32], steps: usize, set: Instructions) {
             let mut inputs = [Slots::<V, SLOTS>::from(0.5); INPUTS];
             for _ in 0..self.1 {
                 let (state, seen) = (black_box(&mut state), black_box(&inputs));
-                let [answer] = network.step_by::<1, _>(Rational, state, seen);
+                let [answer] = step_of_slots(&network, Rational, state, seen);
                 inputs[0] = answer;
             }
             black_box(&inputs);

@@ -139,7 +139,7 @@ pub(super) fn problem_for(
     let problem = problem_with(name, options.preset, &options.settings(), |scenario| {
         replaced = adopt_car(scenario, champion.blob().header());
         for change in &replaced {
-            output.status(format_args!("note: driving with the champion's {change}"));
+            output.note(format_args!("driving with the champion's {change}"));
         }
         check_car(scenario, champion)
     })?;

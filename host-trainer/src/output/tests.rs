@@ -32,6 +32,16 @@ fn with_json_standard_output_holds_one_object_and_nothing_else() {
 }
 
 #[test]
+fn a_note_is_told_once_however_often_there_is_reason_for_it() {
+    let stderr = Page::default();
+    let mut output = Output::to(false, Page::default(), stderr.clone());
+    for note in ["short", "long", "short", "short", "long"] {
+        output.note(note);
+    }
+    assert_eq!(stderr.text(), "note: short\nnote: long\n");
+}
+
+#[test]
 fn a_reader_that_leaves_is_no_failure() {
     let (reader, writer) = io::pipe().unwrap();
     drop(reader);

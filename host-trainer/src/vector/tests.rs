@@ -79,6 +79,12 @@ impl Kernel for Compare {
                     compared += 1;
                 }
             }
+            for (i, [x, y]) in chunk.iter().enumerate() {
+                let (one, other) = (a.0[i / V::WIDTH], b.0[i / V::WIDTH]);
+                let found = one.flipped_by(other).lanes()[i % V::WIDTH];
+                let expected = if y.is_sign_negative() { -x } else { *x };
+                assert_eq!(bits(found), bits(expected), "{x} flipped by {y}");
+            }
             let less = Slots::<V, 2>::bits(a.lt(b));
             for (i, [x, y]) in chunk.iter().enumerate() {
                 assert_eq!(less[i / V::WIDTH] >> (i % V::WIDTH) & 1 == 1, x < y);

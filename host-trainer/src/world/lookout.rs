@@ -108,8 +108,8 @@ impl Lookout {
             field.distances(&self.obstacles, rays, live, distances);
             return;
         }
-        // First where everything lies that is to be loaded, then loading it, then everything that is
-        // to be computed: so the CPU never waits for the one to begin the other.
+        // First where everything lies that is to be loaded, for which a large world has to be asked itself; then
+        // loading it, then everything that is to be computed: so the CPU never waits for the one to begin the other.
         let mut cells = [V::from(0.0); N];
         for car in cars() {
             fan.cast(&poses[car], &mut rays[car]);
@@ -119,9 +119,9 @@ impl Lookout {
         for car in cars() {
             let heading = Turned::by(poses[car].heading);
             let mut shelves = self.shelf.shelves(cells[car]);
-            for beam in 0..BEAMS {
+            for (beam, ray) in rays[car].iter().enumerate() {
                 if beam > 0 && !fan.has_one_origin() {
-                    shelves = self.shelf.shelves(self.grid.locate(rays[car][beam].origin));
+                    shelves = self.shelf.shelves(self.grid.locate(ray.origin));
                 }
                 let bins = fan.bins(beam, heading);
                 self.shelf.ask_seen(asked, car * BEAMS + beam, &shelves, bins);
@@ -247,8 +247,8 @@ impl Lookout {
         touched
     }
 
-    /// The distance along a beam that passes the end of one of its word's walls too closely to be sure, if there is
-    /// a word that knows.
+    /// The distance along a beam whose question is open, if there is a longer list in a word and it reaches far
+    /// enough.
     #[inline(never)]
     fn by_whole<const N: usize>(
         &self,
@@ -293,12 +293,7 @@ impl Lookout {
 
     #[cold]
     #[inline(never)]
-    fn settle_touch<V: Vector>(
-        &self,
-        body: &Body<f32>,
-        pose: &Pose<V>,
-        open: u32,
-    ) -> u32 {
+    fn settle_touch<V: Vector>(&self, body: &Body<f32>, pose: &Pose<V>, open: u32) -> u32 {
         let mut touched = 0;
         for lane in ones(open) {
             let number = |number: V| number.lanes()[lane];

@@ -137,6 +137,9 @@ fn what_the_champions_own_car_replaces_is_listed() {
         ]);
         assert_eq!(found["champions_car"], expected, "{verb}");
     }
+    let twice = bench.say("evaluate run tb3_sandbox tb3_sandbox --pairs 2").ends_in(0);
+    let notes = twice.stderr.lines().filter(|line| line.starts_with("note: ")).count();
+    assert_eq!(notes, 3, "{}", twice.stderr);
     for verb in ["evaluate run open", "replay run open --out b.html"] {
         let found = json(&bench, &format!("{verb} --pairs 2 --json"));
         assert_eq!(found["champions_car"], serde_json::json!([]), "{verb}");

@@ -7,6 +7,7 @@ use controller_core::motion::Pose;
 use controller_core::observation::{BEAMS, BeamMount};
 use host_trainer::car::body_of;
 use host_trainer::seed::Stream;
+use host_trainer::vector::{Instructions, Kernel, Vector};
 use host_trainer::world::{Cells, Fan, Glance, Lookout, Obstacles};
 use proptest::prelude::*;
 use std::cell::RefCell;
@@ -126,6 +127,56 @@ impl Pair {
             assert_eq!(touched, self.truth.touches(&body, pose), "{body:?} at {pose:?}");
             self.touched += usize::from(touched);
         }
+    }
+}
+
+/// Cars side by side, in a lookout of their own.
+const CARS: usize = 3;
+
+/// The same poses in lanes of cars, some of which are not asked for, in a lookout that has not seen them.
+struct SideBySide<'a>(&'a Pair, &'a [Pose<f32>]);
+
+impl Kernel for SideBySide<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> usize {
+        let Self(pair, poses) = self;
+        let OneByOne { walls, discs } = &pair.truth;
+        let obstacles = Arc::new(Obstacles::new(walls.clone(), discs.clone()));
+        let lookout = Lookout::new(obstacles, pair.fan.range(), pair.body, Cells::Fine);
+        let mut glance = Glance::<V, CARS, { CARS * BEAMS }>::default();
+        let zero = V::from(0.0);
+        let mut cars = [Pose { x: zero, y: zero, heading: zero, cos: zero, sin: zero }; CARS];
+        let all = (1 << V::WIDTH) - 1;
+        let mut compared = 0;
+        for (turn, poses) in poses.chunks_exact(CARS * V::WIDTH).enumerate() {
+            let live = [all, if turn % 3 == 0 { 0 } else { all }, 0x6d6d >> (turn % 7) & all];
+            for (place, pose) in poses.iter().enumerate() {
+                let (car, lane) = (&mut cars[place / V::WIDTH], place % V::WIDTH);
+                // What nobody asks for may be anything.
+                let is_live = live[place / V::WIDTH] >> lane & 1 == 1;
+                let of = |number: f32| if is_live { number } else { f32::NAN };
+                car.x.lanes_mut()[lane] = of(pose.x);
+                car.y.lanes_mut()[lane] = of(pose.y);
+                car.heading.lanes_mut()[lane] = of(pose.heading);
+                car.cos.lanes_mut()[lane] = of(pose.cos);
+                car.sin.lanes_mut()[lane] = of(pose.sin);
+            }
+            lookout.look(&pair.fan, &cars, &live, &mut glance);
+            for (place, pose) in poses.iter().enumerate() {
+                let (car, lane) = (place / V::WIDTH, place % V::WIDTH);
+                if live[car] >> lane & 1 == 0 {
+                    continue;
+                }
+                for (beam, alone) in pair.look(pose).into_iter().enumerate() {
+                    let found = glance.distances[car][beam].lanes()[lane];
+                    assert_eq!(found.to_bits(), alone.to_bits(), "beam {beam} at {pose:?}");
+                    compared += 1;
+                }
+            }
+        }
+        compared
     }
 }
 
@@ -406,13 +457,19 @@ fn a_beam_that_passes_a_corner_by_a_hair_meets_what_every_obstacle_says() {
             let fan = Fan::new(&mounts(USUAL), 10.0);
             let mut pair = Pair::by(cells, walls, Vec::new(), fan, BODY);
             assert!(!(large && pair.lookout.beams_walk()), "{far}: no crowd");
+            let mut poses = Vec::new();
             for _ in 0..4_000 {
                 let (x, y) = scene.place();
                 let corner = corners[random.index(corners.len())];
                 let way = libm::hypotf(corner.0 - x, corner.1 - y);
                 let aside = random.within(-9.0, 9.0) * overlap / way.max(overlap);
                 let heading = libm::atan2f(corner.1 - y, corner.0 - x) + aside;
-                pair.compare(&Pose::new(x, y, heading));
+                poses.push(Pose::new(x, y, heading));
+                pair.compare(&poses[poses.len() - 1]);
+            }
+            for set in Instructions::available() {
+                let compared = set.run(SideBySide(&pair, &poses));
+                assert!(compared > 9_000, "{far}, {set}: {compared} beams");
             }
             assert!(pair.seen > 10_000, "{far}: {} beams met something", pair.seen);
         }

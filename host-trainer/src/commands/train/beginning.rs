@@ -128,11 +128,11 @@ impl Beginning {
         ));
         let (its, ours) = (header.activation, problem.scenario.network.activation);
         if its != ours {
-            output.status(format_args!("note: its tanh was {its}; the scenario's, {ours}, counts"));
+            output.note(format_args!("its tanh was {its}; the scenario's, {ours}, counts"));
         }
         for change in adopt_car(&mut problem.scenario.clone(), header) {
-            output.status(format_args!(
-                "note: its {} was {}; the scenario's, {}, counts",
+            output.note(format_args!(
+                "its {} was {}; the scenario's, {}, counts",
                 change.what, change.champion, change.scenario
             ));
         }

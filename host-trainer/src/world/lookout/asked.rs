@@ -2,7 +2,7 @@
 
 use super::beams::Row;
 use super::legends::Meanings;
-use super::words::{AllWords, JOINT, NAME, NAMES, UNKNOWN, Word};
+use super::words::{AllWords, JOINT, NAME, NAMED, NAMES, UNKNOWN, Word};
 use crate::vector::{MOST_LANES, RowOfLane, Vector, fetch};
 use std::sync::atomic::AtomicU16;
 
@@ -16,8 +16,8 @@ pub(super) struct Asked<const N: usize> {
     /// Where the words' numbers are.
     places: [[u32; MOST_LANES]; N],
     words: [[Word; MOST_LANES]; N],
-    /// By which legends the words are to be read, in a large world.
-    legends: [[u32; MOST_LANES]; N],
+    /// Where the legends start by which the words are to be read, in a large world.
+    legend_starts: [[u32; MOST_LANES]; N],
     /// What is set in any lane's word.
     any: [Word; N],
     /// Lanes in which a question may have been left open, as bits.
@@ -32,7 +32,7 @@ impl<const N: usize> Asked<N> {
         Self {
             places: [[0; MOST_LANES]; N],
             words: [[0; MOST_LANES]; N],
-            legends: [[0; MOST_LANES]; N],
+            legend_starts: [[0; MOST_LANES]; N],
             any: [0; N],
             open: [0; N],
         }
@@ -44,10 +44,10 @@ impl<const N: usize> Asked<N> {
         &mut self,
         question: usize,
         places: V,
-        legends: Option<&[u32; MOST_LANES]>,
+        legend_starts: Option<&[u32; MOST_LANES]>,
     ) {
-        if let Some(legends) = legends {
-            self.legends[question] = *legends;
+        if let Some(starts) = legend_starts {
+            self.legend_starts[question] = *starts;
         }
         self.places[question] = places.places();
     }
@@ -95,10 +95,10 @@ impl<const N: usize> Asked<N> {
         &self.words[question]
     }
 
-    /// The legends to one question's words, in a large world.
+    /// Where the legends to one question's words start, in a large world.
     #[inline(always)]
-    pub(super) fn legends(&self, question: usize) -> &[u32; MOST_LANES] {
-        &self.legends[question]
+    pub(super) fn legend_starts(&self, question: usize) -> &[u32; MOST_LANES] {
+        &self.legend_starts[question]
     }
 
     /// Lanes whose word does not say everything, as bits.
@@ -108,7 +108,7 @@ impl<const N: usize> Asked<N> {
     }
 
     /// Writes down in which lanes a question may be left open, of which these are doubtful; returns whether
-    /// there are any.
+    /// there are any. Lanes where nobody asks are among them until [`Self::close`].
     #[inline(always)]
     pub(super) fn leave_open<V: Vector>(&mut self, question: usize, doubtful: u32) -> bool {
         self.open[question] = doubtful | self.unknown::<V>(question);
@@ -122,7 +122,7 @@ impl<const N: usize> Asked<N> {
         self.open[question] &= live & self.with::<V>(question, UNKNOWN | JOINT);
     }
 
-    /// In which lanes a question is open, as bits.
+    /// In which lanes a question is open, as bits, if it was left open since it was asked.
     #[inline(always)]
     pub(super) fn open(&self, question: usize) -> u32 {
         self.open[question]
@@ -147,7 +147,7 @@ impl<const N: usize> Asked<N> {
 /// How many names the longest of some words has, of which this is set in any.
 #[inline(always)]
 fn longest(any: Word) -> usize {
-    (any & (JOINT - 1)).checked_ilog2().map_or(0, |last| (last / NAME) as usize + 1)
+    (any & NAMED).checked_ilog2().map_or(0, |last| (last / NAME) as usize + 1)
 }
 
 /// Rows of a large world, of what each lane's word names in a round, as its legend says.
@@ -157,7 +157,7 @@ pub(super) struct ByPlace<'a> {
     pub(super) table: &'a [Row],
     pub(super) meanings: &'a Meanings,
     pub(super) words: &'a [Word; MOST_LANES],
-    pub(super) legends: &'a [u32; MOST_LANES],
+    pub(super) legend_starts: &'a [u32; MOST_LANES],
     pub(super) round: usize,
 }
 
@@ -167,6 +167,22 @@ impl RowOfLane for ByPlace<'_> {
         // Little-endian, as controller-core demands.
         let names: &[u8] = bytemuck::must_cast_slice(self.words);
         let name = names[lane * size_of::<Word>() + self.round];
-        &self.table[self.meanings.at(self.legends[lane], name)]
+        &self.table[self.meanings.at(self.legend_starts[lane], name)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longest_word_counts_whatever_its_flags() {
+        for names in 0..=NAMES {
+            let word = (0..names).fold(0, |word, _| word << NAME | 3);
+            for flags in [0, JOINT, UNKNOWN, JOINT | UNKNOWN] {
+                assert_eq!(longest(word | flags), names, "{word:x}");
+                assert_eq!(longest(word | flags | 1), names.max(1), "{word:x} and one name");
+            }
+        }
     }
 }

@@ -57,7 +57,7 @@ impl Surroundings {
         let mut nearest_first: Vec<&Candidate> = candidates.iter().collect();
         nearest_first
             .sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
-        let (mut around, mut met) = (Vec::new(), Vec::new());
+        let (mut around, mut met, mut walked) = (Vec::new(), Vec::new(), Vec::new());
         let (mut in_sight, mut in_light) = (Vec::new(), Vec::new());
         let write = |places: &mut Vec<u32>, met: &[&Candidate]| {
             places.clear();
@@ -69,14 +69,16 @@ impl Surroundings {
             around.extend(nearest_first.iter().filter(|candidate| candidate.is_met(&all)));
             let hidden_in_all = match around.len() {
                 0 | 1 => Hidden::nothing(),
-                _ => Cone::new(cell, &all, &self.limits).keep_in_sight(&mut around),
+                _ => Cone::new(cell, &all, &self.limits).keep_in_sight(&mut around, &mut walked),
             };
             for (bin, arc) in (first..).zip(few) {
                 met.clear();
                 met.extend(around.iter().filter(|candidate| candidate.is_met(arc)));
                 let cone = Cone::new(cell, arc, &self.limits);
-                let hidden =
-                    if met.len() > 1 { cone.keep_in_sight(&mut met) } else { Hidden::nothing() };
+                let hidden = match met.len() {
+                    0 | 1 => Hidden::nothing(),
+                    _ => cone.keep_in_sight(&mut met, &mut walked),
+                };
                 write(&mut in_sight, &met);
                 let joined = || hidden.joined.iter().chain(&hidden_in_all.joined);
                 let any_in_shade =

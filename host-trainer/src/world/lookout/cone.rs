@@ -64,12 +64,17 @@ impl<'a> Cone<'a> {
     }
 
     /// Keeps those of the candidates that the beams can meet first. They are all that the beams
-    /// can meet, the nearest first.
-    pub(super) fn keep_in_sight(&self, met: &mut Vec<&Candidate>) -> Hidden {
+    /// can meet, the nearest first. What is in `walked` does not matter: it is memory to be used.
+    pub(super) fn keep_in_sight(
+        &self,
+        met: &mut Vec<&Candidate>,
+        walked: &mut Vec<bool>,
+    ) -> Hidden {
         let all = met.len();
         let mut nearest = f64::INFINITY;
         let mut chain = Chain { walls: [0; LONGEST], count: 0 };
-        let mut walked = vec![false; all];
+        walked.clear();
+        walked.resize(all, false);
         for seed in 0..met.len() {
             if met[seed].distance > nearest {
                 break;
@@ -78,7 +83,7 @@ impl<'a> Cone<'a> {
             if walked[seed] {
                 continue;
             }
-            if let Some((behind, walls)) = self.behind(met, seed, &mut walked)
+            if let Some((behind, walls)) = self.behind(met, seed, walked)
                 && behind < nearest
             {
                 (nearest, chain) = (behind, walls);
@@ -239,7 +244,7 @@ impl<'a> Cone<'a> {
         }
         // Nearest to the normal, somewhere on the arc.
         let speeds = self.arc.edges.map(|edge| dot(candidate.normal, edge).abs());
-        let fastest = (most(speeds) / libm::cos(self.arc.half)).min(1.0);
+        let fastest = (most(speeds) / self.arc.cos_half).min(1.0);
         let way = low.abs().min(high.abs()) / fastest;
         (way.max(candidate.distance), candidate.rounding.ahead / slowest)
     }

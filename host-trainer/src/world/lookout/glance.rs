@@ -25,10 +25,6 @@ impl<V: Vector, const N: usize, const Q: usize> Default for Glance<V, N, Q> {
         const { assert!(Q == N * BEAMS) };
         let zero = V::from(0.0);
         let ray = Ray { origin: (zero, zero), direction: (zero, zero) };
-        Self {
-            rays: [[ray; BEAMS]; N],
-            distances: [[zero; BEAMS]; N],
-            asked: Asked::new(),
-        }
+        Self { rays: [[ray; BEAMS]; N], distances: [[zero; BEAMS]; N], asked: Asked::new() }
     }
 }

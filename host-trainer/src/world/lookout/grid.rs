@@ -20,7 +20,8 @@ const MOST_CELLS: usize = 1 << 23;
 const ROUND: f32 = 12_582_912.0;
 
 /// Directions lie this much further out than their part of a turn says, radians: many times what
-/// `sin_cos`, `wrap`, turning by a mount and the choice of a part round away.
+/// `sin_cos`, `wrap`, turning by a mount and the choice of a part, of which heading and mount are rounded
+/// each by itself, round away.
 const TURN_MARGIN: f64 = 1.0e-5;
 
 /// How closely a world is looked at.
@@ -219,14 +220,15 @@ fn nearest_integer<V: Vector>(value: V) -> V {
 pub(super) struct Arc {
     /// Its middle, radians.
     pub(super) middle: f64,
-    /// From its middle to its edge, radians.
+    /// From its middle to its edge, radians, and the cosine of that.
     pub(super) half: f64,
+    pub(super) cos_half: f64,
     /// Its right and its left edge, unit vectors.
     pub(super) edges: [Point; 2],
 }
 
 impl Arc {
-    /// Every direction that [`Turned::part`] puts in this part, and a little more.
+    /// Every direction that [`Turned::part_beside`] puts in this part, and a little more.
     pub(super) fn new(part: usize, parts: u32) -> Self {
         let whole = std::f64::consts::TAU;
         let middle = part as f64 * whole / f64::from(parts);
@@ -242,6 +244,56 @@ impl Arc {
 
     fn of(middle: f64, half: f64) -> Self {
         let at = |angle: f64| [libm::cos(angle), libm::sin(angle)];
-        Self { middle, half, edges: [at(middle - half), at(middle + half)] }
+        let edges = [at(middle - half), at(middle + half)];
+        Self { middle, half, cos_half: libm::cos(half), edges }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::f64::consts::TAU as TURN;
+
+    const PARTS: u32 = 128;
+
+    fn part(heading: f32, mount: f32) -> f32 {
+        Turned::<f32, PARTS>::by(heading).part_beside(parts_of_turn(mount, PARTS))
+    }
+
+    /// By how much a direction lies outside of its part, radians; negative inside.
+    fn outside(heading: f32, mount: f32) -> f64 {
+        let part = part(heading, mount);
+        assert!((0.0..PARTS as f32).contains(&part), "{part} at {heading} and {mount}");
+        let Arc { middle, half, .. } = Arc::new(part as usize, PARTS);
+        let turns = (f64::from(heading) + f64::from(mount) - middle) / TURN;
+        (turns - libm::round(turns)).abs() * TURN - (half - TURN_MARGIN)
+    }
+
+    proptest! {
+        #[test]
+        fn a_direction_lies_in_its_part_but_for_half_the_margin(
+            heading in -10.0_f32..10.0,
+            mount in -std::f32::consts::PI..=std::f32::consts::PI,
+        ) {
+            prop_assert!(outside(heading, mount) < 0.5 * TURN_MARGIN);
+        }
+
+        #[test]
+        fn so_does_one_near_the_edge_of_a_part(
+            edge in -128_i16..=128,
+            aside in -2.0e-5_f64..2.0e-5,
+            mount in -std::f32::consts::PI..=std::f32::consts::PI,
+        ) {
+            let at = (f64::from(edge) + 0.5) / f64::from(PARTS) * TURN - f64::from(mount);
+            prop_assert!(outside((at + aside) as f32, mount) < 0.5 * TURN_MARGIN);
+        }
+    }
+
+    #[test]
+    fn what_is_no_angle_lies_in_some_part() {
+        for heading in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX] {
+            assert!((0.0..PARTS as f32).contains(&part(heading, 1.0)), "{heading}");
+        }
     }
 }

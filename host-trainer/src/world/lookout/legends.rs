@@ -19,7 +19,7 @@ const MOST_LEGENDS: usize = MOST_SHELVES;
 
 /// Each obstacle's place in the world plus 1, by legend and name; 0 is nothing.
 #[derive(Debug)]
-pub(super) struct Meanings(Box<[[AtomicU32; 1 << NAME]; MOST_LEGENDS]>);
+pub(super) struct Meanings(Box<[AtomicU32; MOST_LEGENDS << NAME]>);
 
 /// All legends.
 #[derive(Debug)]
@@ -50,16 +50,23 @@ pub(super) enum Naming<'a> {
 }
 
 impl Meanings {
-    /// What a name means by a legend: a place in the world plus 1.
+    /// What a name means by the legend that [starts](Self::start) here: a place in the world plus 1.
     #[inline(always)]
-    pub(super) fn at(&self, legend: u32, name: u8) -> usize {
-        // No legend is farther out; said so, it needs no test.
-        let legend = legend as usize & (MOST_LEGENDS - 1);
-        self.0[legend][usize::from(name)].load(Ordering::Relaxed) as usize
+    pub(super) fn at(&self, start: u32, name: u8) -> usize {
+        // No index is farther out; said so, it needs no test.
+        let index = (start | u32::from(name)) as usize & ((MOST_LEGENDS << NAME) - 1);
+        self.0[index].load(Ordering::Relaxed) as usize
+    }
+
+    /// Where a legend starts.
+    #[inline(always)]
+    pub(super) fn start(legend: u32) -> u32 {
+        legend << NAME
     }
 
     fn mean(&self, legend: u32, name: u8, place: u32) {
-        self.0[legend as usize][usize::from(name)].store(place + 1, Ordering::Relaxed);
+        let index = Self::start(legend) | u32::from(name);
+        self.0[index as usize].store(place + 1, Ordering::Relaxed);
     }
 }
 
@@ -81,7 +88,7 @@ impl Legends {
 
     /// The place in the world plus 1 that a name means.
     pub(super) fn meaning(&self, legend: u32, name: u8) -> usize {
-        self.meanings.at(legend, name)
+        self.meanings.at(Meanings::start(legend), name)
     }
 
     /// The legend for a cell of this tile, which lies in this rectangle; a new one in a crowd. None

@@ -9,9 +9,9 @@ use super::beams::{self, Row};
 use super::cell::{BINS, SECTORS, Sight, Surroundings};
 use super::grid::Grid;
 use super::kept::Kept;
-use super::legends::{Legends, MOST_NAMES, Naming};
+use super::legends::{Legends, MOST_NAMES, Meanings, Naming};
 use super::rounding::Limits;
-use super::words::{JOINT, NAME, NAMES, UNKNOWN, Whole, Word, Words};
+use super::words::{JOINT, NAME, NAMES, UNKNOWN, Whole, Word, Words, named};
 use crate::vector::{ByName, MOST_LANES, Table, Vector, fetch, ones};
 use crate::world::Obstacles;
 use controller_core::geometry::{Body, Segment};
@@ -64,8 +64,8 @@ impl Rows {
         match large {
             None => V::named(ByName { table: &self.named, words, byte: round }),
             Some(Large { legends, .. }) => {
-                let (meanings, legends) = (legends.meanings(), asked.legends(question));
-                V::rows(ByPlace { table: &self.all, meanings, words, legends, round })
+                let (meanings, legend_starts) = (legends.meanings(), asked.legend_starts(question));
+                V::rows(ByPlace { table: &self.all, meanings, words, legend_starts, round })
             }
         }
     }
@@ -106,7 +106,7 @@ impl Spot {
 #[derive(Clone, Copy)]
 pub(super) struct Shelves<V> {
     shelves: V,
-    legends: [u32; MOST_LANES],
+    legend_starts: [u32; MOST_LANES],
 }
 
 /// Obstacles whose word does not name all there are: too many, or, in a large world, some hidden only
@@ -259,12 +259,12 @@ impl Shelf {
         &self,
         asked: &mut Asked<N>,
         question: usize,
-        Shelves { shelves, legends }: &Shelves<V>,
+        Shelves { shelves, legend_starts }: &Shelves<V>,
         part: V,
         parts: u32,
     ) {
         let places = *shelves * V::from(parts as f32) + part;
-        asked.ask(question, places, self.large.as_ref().map(|_| legends));
+        asked.ask(question, places, self.large.as_ref().map(|_| legend_starts));
     }
 
     /// Answers what beams can meet, for cars with any lane in `live`.
@@ -300,12 +300,13 @@ impl Shelf {
     /// The shelves of these cells.
     #[inline(always)]
     pub(super) fn shelves<V: Vector>(&self, cells: V) -> Shelves<V> {
-        let mut all = Shelves { shelves: cells, legends: [0; MOST_LANES] };
+        let mut all = Shelves { shelves: cells, legend_starts: [0; MOST_LANES] };
         if let Some(large) = &self.large {
             let cells = cells.places();
             for (lane, shelf) in all.shelves.lanes_mut().iter_mut().enumerate() {
                 let spot = Spot::of(large.spots[cells[lane] as usize].load(Ordering::Relaxed));
-                (*shelf, all.legends[lane]) = (spot.shelf as f32, spot.legend);
+                *shelf = spot.shelf as f32;
+                all.legend_starts[lane] = Meanings::start(spot.legend);
             }
         }
         all
@@ -354,10 +355,17 @@ impl Shelf {
         lane: usize,
         f: impl FnMut(&Row),
     ) -> Option<f32> {
+        let (place, start) = (asked.places(question)[lane], asked.legend_starts(question)[lane]);
+        self.each_of_whole_at(place, start, f)
+    }
+
+    /// The same of the [`Whole`] in this place, by the legend that starts there.
+    fn each_of_whole_at(&self, place: u32, start: u32, f: impl FnMut(&Row)) -> Option<f32> {
         let large = self.large.as_ref()?;
-        let whole = Whole::in_place(&large.wholes[asked.places(question)[lane] as usize])?;
-        let word = large.whole_words.all().of_number(whole.number());
-        self.each_named(&self.edges, asked.legends(question)[lane], word, f);
+        let whole = Whole::in_place(&large.wholes[place as usize])?;
+        let (meanings, word) = (large.legends.meanings(), large.whole_words.all());
+        let names = named(word.of_number(whole.number()));
+        names.map(|name| &self.edges.all[meanings.at(start, name)]).for_each(f);
         Some(whole.beyond(self.surroundings.range))
     }
 
@@ -375,6 +383,12 @@ impl Shelf {
         let spot @ Spot { shelf, legend } = self.spot(grid, obstacles, cell)?;
         let lists = self.lists[shelf as usize]
             .get_or_init(|| Box::new(self.look_around(grid, obstacles, cell, spot)));
+        if let Question::Seen(bin) = question {
+            let (place, start) = (shelf * BINS + bin, Meanings::start(legend));
+            if let Some(beyond) = self.each_of_whole_at(place, start, &mut f) {
+                return Some(Sure::Within(beyond));
+            }
+        }
         let (kept, part, numbers, table, at) = match question {
             Question::Seen(bin) => (&lists.seen, bin, &self.seen, &self.edges, shelf * BINS + bin),
             Question::Near(sector) => {
@@ -395,9 +409,7 @@ impl Shelf {
 
     /// Calls `f` with the obstacle of every name in a word.
     fn each_named(&self, table: &Rows, legend: u32, word: Word, f: impl FnMut(&Row)) {
-        let names = word.to_le_bytes();
-        let named = names[..NAMES].iter().take_while(|name| **name != 0);
-        named.map(|name| &table.all[self.row(legend, *name)]).for_each(f);
+        named(word).map(|name| &table.all[self.row(legend, name)]).for_each(f);
     }
 
     /// Where in the tables a name's obstacle is.

@@ -13,6 +13,9 @@ pub(super) const NAME: u32 = u8::BITS;
 /// Names in a word.
 pub(super) const NAMES: usize = 7;
 
+/// All bits of names.
+pub(super) const NAMED: Word = (1 << (NAMES as u32 * NAME)) - 1;
+
 /// The bit of a word that says: its names are not all there are.
 pub(super) const UNKNOWN: Word = 1 << (Word::BITS - 1);
 
@@ -20,12 +23,25 @@ pub(super) const UNKNOWN: Word = 1 << (Word::BITS - 1);
 /// and a beam that passes the ends or edges of these too closely cannot be sure to meet one of them.
 pub(super) const JOINT: Word = UNKNOWN >> 1;
 
+/// The names in a word.
+pub(super) fn named(word: Word) -> impl Iterator<Item = u8> {
+    word.to_le_bytes().into_iter().take(NAMES).take_while(|name| *name != 0)
+}
+
 /// Every word once. Few are different, so the shelves hold short numbers.
 #[derive(Debug)]
 pub(super) struct Words {
     /// The first is that of what nobody has looked at.
     words: Box<[AtomicU64]>,
-    numbers: Mutex<HashMap<Word, u16>>,
+    numbers: Mutex<Numbers>,
+}
+
+/// The number of every word.
+#[derive(Debug, Default)]
+struct Numbers {
+    all: HashMap<Word, u16>,
+    /// The last one asked for: from one direction to the next it is mostly the same.
+    last: (Word, u16),
 }
 
 /// Every word, by number.
@@ -93,13 +109,21 @@ impl Words {
 
     /// The number of this word; none if there are too many.
     pub(super) fn number(&self, word: Word) -> Option<u16> {
-        let mut numbers = self.numbers.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = numbers.get(&word) {
-            return Some(*known);
+        let Numbers { all, last } =
+            &mut *self.numbers.lock().unwrap_or_else(PoisonError::into_inner);
+        if last.0 == word && last.1 != 0 {
+            return Some(last.1);
         }
-        let number = u16::try_from(numbers.len() + 1).ok()?;
-        self.words[usize::from(number)].store(word, Ordering::Relaxed);
-        numbers.insert(word, number);
+        let number = match all.get(&word) {
+            Some(known) => *known,
+            None => {
+                let number = u16::try_from(all.len() + 1).ok()?;
+                self.words[usize::from(number)].store(word, Ordering::Relaxed);
+                all.insert(word, number);
+                number
+            }
+        };
+        *last = (word, number);
         Some(number)
     }
 }
