@@ -223,6 +223,25 @@ impl<'a, R: Recurrence, W: Copy + fmt::Debug, const I: usize, const H: usize, co
         self.output.run::<O, Feedforward, L>((), activation, second, &mut output);
         output
     }
+
+    /// The same from the hidden outputs `before` the step to those after it, in places of their own: those of many
+    /// robots at once take long to copy.
+    #[inline(always)]
+    pub fn step_between<const N: usize, L: Lane + From<W>>(
+        &self,
+        activation: impl Activation,
+        before: &State<L, H>,
+        State { first, second }: &mut State<L, H>,
+        input: &[L; I],
+    ) -> [L; O] {
+        let (memory, previous) = (self.first_memory, &before.first);
+        self.first.run_between::<N, R, L>(memory, activation, input, previous, first);
+        let (memory, previous) = (self.second_memory, &before.second);
+        self.second.run_between::<N, R, L>(memory, activation, first, previous, second);
+        let mut output = [L::from(0.0); O];
+        self.output.run::<O, Feedforward, L>((), activation, second, &mut output);
+        output
+    }
 }
 
 /// Hidden neurons that a microcontroller works on at a time. More do not fit the 32 registers of a Cortex-M4F
@@ -278,7 +297,10 @@ mod tests {
         let mut state = State::reset();
         core::array::from_fn(|step| {
             let input = core::array::from_fn(|index| ((step * 7 + index) * 31 % 53) as f32 / 52.0);
+            let mut after = State::reset();
+            let between = network.step_between::<N, f32>(Rational, &state, &mut after, &input);
             let outputs = network.step_by::<N, f32>(Rational, &mut state, &input);
+            assert_eq!((between, after), (outputs, state), "the same, in places of their own");
             let mut values = state.first.iter().chain(&state.second).chain(&outputs);
             core::array::from_fn(|_| values.next().unwrap().to_bits())
         })

@@ -47,6 +47,30 @@ impl<W: Copy + fmt::Debug, const IN: usize, const OUT: usize> Layer<'_, W, IN, O
         }
     }
 
+    /// The same with the previous outputs in another place. A function of its own: with it a board's step in place
+    /// would take 2 % more instructions.
+    #[inline(always)]
+    pub(super) fn run_between<const N: usize, R: Recurrence, L: Lane + From<W>>(
+        &self,
+        memory: R::Weights<'_, W, OUT>,
+        activation: impl Activation,
+        input: &[L; IN],
+        previous: &[L; OUT],
+        outputs: &mut [L; OUT],
+    ) {
+        let (groups, rest) = outputs.as_chunks_mut::<N>();
+        let (own_of_groups, own_of_rest) = previous.as_chunks::<N>();
+        let mut first = 0;
+        for (group, own) in groups.iter_mut().zip(own_of_groups) {
+            *group = self.group::<N, R, L>(first, memory, activation, input, own, previous);
+            first += N;
+        }
+        for (output, own) in rest.iter_mut().zip(own_of_rest) {
+            [*output] = self.group::<1, R, L>(first, memory, activation, input, &[*own], previous);
+            first += 1;
+        }
+    }
+
     /// New outputs of the `N` neurons from `first` on, whose previous ones are `own`.
     #[inline(always)]
     fn group<const N: usize, R: Recurrence, L: Lane + From<W>>(

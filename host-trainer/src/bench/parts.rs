@@ -135,11 +135,15 @@ pub fn step_together(genomes: &[f32], steps: usize, set: Instructions) {
             let network = Network::<Elman, Weight<V, 1>, INPUTS, HIDDEN, 1>::new(&weights, true);
             let network = network.expect("the workload's topology");
             let mut state = State::<Slots<V, SLOTS>, HIDDEN>::reset();
+            let mut next = state;
+            let (mut before, mut after) = (&mut state, &mut next);
             let mut inputs = [Slots::<V, SLOTS>::from(0.5); INPUTS];
             for _ in 0..self.1 {
-                let (state, seen) = (black_box(&mut state), black_box(&inputs));
-                let [answer] = step_of_slots(&network, Rational, state, seen);
+                let seen = black_box(&inputs);
+                let [answer] =
+                    step_of_slots(&network, Rational, black_box(&*before), black_box(after), seen);
                 inputs[0] = answer;
+                std::mem::swap(&mut before, &mut after);
             }
             black_box(&inputs);
         }

@@ -165,14 +165,17 @@ fn memory<V: Vector, R: Recurrence + 'static>(
     activation: ActivationKind,
 ) -> Box<dyn Memory<V>> {
     with_sizes!(topology, |H, O| {
-        let (state, biases) = (State::<All<V>, H>::reset(), topology.biases);
-        Box::new(Sized::<V, R, H, O> { state, biases, activation, recurrence: PhantomData })
+        let [memory, next] = [(); 2].map(|()| Box::new(State::<All<V>, H>::reset()));
+        let biases = topology.biases;
+        Box::new(Sized::<V, R, H, O> { memory, next, biases, activation, recurrence: PhantomData })
     }, else unreachable!("the scenario's network is built in"))
 }
 
 /// The memory of networks whose hidden layers have `H` neurons and that have `O` outputs.
 struct Sized<V, R, const H: usize, const O: usize> {
-    state: State<All<V>, H>,
+    memory: Box<State<All<V>, H>>,
+    /// Where that of the next step is written.
+    next: Box<State<All<V>, H>>,
     biases: bool,
     activation: ActivationKind,
     recurrence: PhantomData<R>,
@@ -199,14 +202,14 @@ impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Memory<V> for Siz
     }
 
     fn forget(&mut self, car: usize) {
-        let State { first, second } = &mut self.state;
+        let State { first, second } = &mut *self.memory;
         for output in first.iter_mut().chain(second) {
             output.numbers_mut()[car] = 0.0;
         }
     }
 
     fn visit(&mut self, look: &mut dyn FnMut(&mut All<V>)) {
-        let State { first, second } = &mut self.state;
+        let State { first, second } = &mut *self.memory;
         first.iter_mut().chain(second).for_each(look);
     }
 }
@@ -220,8 +223,16 @@ impl<V: Vector, R: Recurrence, const H: usize, const O: usize> Sized<V, R, H, O>
     ) {
         let network = Network::<R, Weight<V, SETS>, INPUTS, H, O>::new(weights, self.biases);
         let network = network.expect("as many weights as the topology has");
-        let (state, activation) = (&mut self.state, self.activation);
-        V::apart(Step::<V, R, SETS, K, H, O> { network, state, activation, inputs, outputs });
+        let (activation, before, after) = (self.activation, &*self.memory, &mut *self.next);
+        V::apart(Step::<V, R, SETS, K, H, O> {
+            network,
+            activation,
+            before,
+            after,
+            inputs,
+            outputs,
+        });
+        std::mem::swap(&mut self.memory, &mut self.next);
     }
 }
 
@@ -236,8 +247,9 @@ struct Step<
     const O: usize,
 > {
     network: Network<'a, R, Weight<V, SETS>, INPUTS, H, O>,
-    state: &'a mut State<All<V>, H>,
     activation: ActivationKind,
+    before: &'a State<All<V>, H>,
+    after: &'a mut State<All<V>, H>,
     inputs: &'a [All<V>; INPUTS],
     outputs: &'a mut [All<V>],
 }
@@ -245,8 +257,10 @@ struct Step<
 /// One step of the networks of all slots.
 ///
 /// How many neurons at a time is by measurement (AMD Zen 3, weights of each car's own): alone, one takes 131 ns for a car
-/// and four 84; with vectors of four one takes 64, two 57; with vectors of eight one and two the same, three more. A
-/// group has to fill the time that its sums wait for each other, and to fit the registers.
+/// and four 84; with vectors of four one takes 64, two 57; with vectors of eight one and two the same, three more.
+/// With vectors of sixteen (Zen 4) two make a whole step of the workload 3 % faster than one where weights are shared, and
+/// the network 7 % slower where they are not. A group has to fill the time that its sums wait for each other, and to fit
+/// the registers; the larger it is, the less often inputs are loaded.
 #[inline(always)]
 pub(crate) fn step_of_slots<
     V: Vector,
@@ -257,13 +271,14 @@ pub(crate) fn step_of_slots<
 >(
     network: &Network<'_, R, Weight<V, SETS>, INPUTS, H, O>,
     activation: impl Activation,
-    state: &mut State<All<V>, H>,
+    before: &State<All<V>, H>,
+    after: &mut State<All<V>, H>,
     inputs: &[All<V>; INPUTS],
 ) -> [All<V>; O] {
     match V::WIDTH {
-        1 => network.step_by::<4, _>(activation, state, inputs),
-        4 => network.step_by::<2, _>(activation, state, inputs),
-        _ => network.step_by::<1, _>(activation, state, inputs),
+        1 => network.step_between::<4, _>(activation, before, after, inputs),
+        4 | 16 => network.step_between::<2, _>(activation, before, after, inputs),
+        _ => network.step_between::<1, _>(activation, before, after, inputs),
     }
 }
 
@@ -277,21 +292,21 @@ impl<V: Vector, R: Recurrence, const SETS: usize, const K: usize, const H: usize
 
     #[inline(always)]
     fn run(self) {
-        let Self { network, state, activation, inputs, outputs } = self;
+        let Self { network, activation, before, after, inputs, outputs } = self;
         if K == SLOTS {
-            let answer = step_of_slots(&network, activation, state, inputs);
+            let answer = step_of_slots(&network, activation, before, after, inputs);
             for (output, answer) in outputs.iter_mut().zip(answer) {
                 *output = answer;
             }
             return;
         }
         let few_of = |all: &All<V>| Slots(*all.0.first_chunk::<K>().expect("no more than all"));
-        let State { first, second } = &*state;
+        let State { first, second } = before;
         let mut few =
             State { first: first.each_ref().map(few_of), second: second.each_ref().map(few_of) };
         let inputs = inputs.each_ref().map(few_of);
         let answer = network.step_by::<OF_FEW, _>(activation, &mut few, &inputs);
-        let all = state.first.iter_mut().chain(&mut state.second).chain(outputs);
+        let all = after.first.iter_mut().chain(&mut after.second).chain(outputs);
         for (all, few) in all.zip(few.first.iter().chain(&few.second).chain(&answer)) {
             all.0[..K].copy_from_slice(&few.0);
         }
