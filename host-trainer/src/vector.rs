@@ -36,6 +36,9 @@ pub trait Vector: Lane + Pod + fmt::Debug {
     /// Numbers side by side.
     const WIDTH: usize;
 
+    /// Whether [`Self::squeezed`] and [`Self::spread`] are an instruction each, and not many.
+    const SQUEEZES: bool = false;
+
     /// The mask as bits, lane 0 lowest.
     fn bits(mask: Self::Mask) -> u32;
 
@@ -45,6 +48,12 @@ pub trait Vector: Lane + Pod + fmt::Debug {
     /// The lanes as whole numbers; they must be from 0 to 2²⁴. Those past the width are 0.
     fn places(self) -> [u32; MOST_LANES];
 
+    /// The nearest whole number in each lane, counted around `parts`, after `parts` times this lane's base: the
+    /// place of one of so many parts. Numbers must be within ±2²²; of two that are as near, the even one is taken.
+    ///
+    /// `parts` must be a power of two.
+    fn places_around(self, parts: u32, bases: &[u32; MOST_LANES]) -> [u32; MOST_LANES];
+
     /// Each lane's row as four vectors: the rows' first numbers, their second ones and so on.
     fn rows<R: RowOfLane>(rows: R) -> [Self; 4];
 
@@ -52,6 +61,35 @@ pub trait Vector: Lane + Pod + fmt::Debug {
     #[inline(always)]
     fn named(rows: ByName<'_>) -> [Self; 4] {
         Self::rows(rows)
+    }
+
+    /// Which lanes' whole numbers have any of these bits, as bits, lane 0 lowest.
+    #[inline(always)]
+    fn lanes_with(numbers: &[u32; MOST_LANES], bits: u32) -> u32 {
+        let mut lanes = 0;
+        for (lane, number) in numbers[..Self::WIDTH].iter().enumerate() {
+            lanes |= u32::from(number & bits != 0) << lane;
+        }
+        lanes
+    }
+
+    /// The numbers of these lanes one after the other, in the first lanes; those after them hold anything.
+    #[inline(always)]
+    fn squeezed(mut self, lanes: u32) -> Self {
+        let numbers = self.lanes_mut();
+        for (to, lane) in ones(lanes).enumerate() {
+            numbers[to] = numbers[lane];
+        }
+        self
+    }
+
+    /// The other way round: the first numbers in these lanes, one after the other, and `rest` in all others.
+    #[inline(always)]
+    fn spread(self, lanes: u32, mut rest: Self) -> Self {
+        for (from, lane) in ones(lanes).enumerate() {
+            rest.lanes_mut()[lane] = self.lanes()[from];
+        }
+        rest
     }
 
     /// Runs the part in a function of its own, compiled for this type's instructions, which
@@ -123,6 +161,16 @@ impl Vector for f32 {
     fn places(self) -> [u32; MOST_LANES] {
         let mut places = [0; MOST_LANES];
         places[0] = self as u32;
+        places
+    }
+
+    #[inline(always)]
+    fn places_around(self, parts: u32, bases: &[u32; MOST_LANES]) -> [u32; MOST_LANES] {
+        /// Adding and taking away 1.5·2²³ rounds to the nearest integer.
+        const ROUND: f32 = 12_582_912.0;
+        let nearest = ((self + ROUND) - ROUND) as i32;
+        let mut places = [0; MOST_LANES];
+        places[0] = bases[0] * parts + (nearest.cast_unsigned() & (parts - 1));
         places
     }
 

@@ -19,6 +19,7 @@
 //! | `queue` | who drives what next |
 //! | `block` | lanes and slots, what happens when a drive ends, how long cars wait for each other |
 //! | `cars` | one car in each lane: what they see, how they move |
+//! | `starts` | where drives begin, worked out once for all who drive a pair |
 //! | `tape` | noise and dropped beams, drawn once for all who drive a pair |
 //! | `forward` | the networks of all cars, sizes known at run time |
 
@@ -26,6 +27,7 @@ mod block;
 mod cars;
 mod forward;
 mod queue;
+mod starts;
 mod tape;
 
 use crate::episode::Outcome;
@@ -37,6 +39,7 @@ use crate::vector::{Instructions, Kernel, Vector};
 use block::Block;
 pub(crate) use forward::step_of_slots;
 use queue::Queue;
+use starts::Starts;
 use tape::Tapes;
 
 /// Cars in each lane. Five share each load of a weight, keep the CPU's arithmetic busy, and
@@ -95,8 +98,8 @@ impl Fleet<'_> {
 
     fn drive_by(&self, stop: &StopFlag, run: impl FnOnce(Work<'_>) -> Vec<Done>) -> Option<Drives> {
         let queue = Queue::new(self.individuals(), self.pairs.len(), stop);
-        let tapes = Tapes::of(self);
-        let done = run(Work { fleet: self, queue: &queue, tapes: &tapes });
+        let (starts, tapes) = (Starts::of(self), Tapes::of(self));
+        let done = run(Work { fleet: self, queue: &queue, starts: &starts, tapes: &tapes });
         if stop.requested().is_some() {
             return None;
         }
@@ -119,6 +122,7 @@ impl Fleet<'_> {
 struct Work<'a> {
     fleet: &'a Fleet<'a>,
     queue: &'a Queue<'a>,
+    starts: &'a Starts,
     tapes: &'a Tapes,
 }
 
@@ -130,7 +134,7 @@ impl Kernel for Work<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(self) -> Done {
-        let mut block = Block::<V>::new(self.fleet, self.queue, self.tapes);
+        let mut block = Block::<V>::new(self);
         while block.fill() {
             block.step();
         }

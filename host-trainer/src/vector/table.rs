@@ -15,7 +15,11 @@ pub struct Table {
 /// Few rows once more, so that they can be taken from registers.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub(super) struct Columns(pub(super) [[f32; Self::ROWS]; 4]);
+pub(super) struct Columns {
+    pub(super) columns: [[f32; Self::ROWS]; 4],
+    /// Whether the last quarter of each is never asked for.
+    pub(super) are_few: bool,
+}
 
 impl Columns {
     /// Most rows.
@@ -34,7 +38,8 @@ impl Table {
         rows[..given.len()].copy_from_slice(given);
         let columns = (given.len() <= Columns::ROWS).then(|| {
             let column = |number: usize| std::array::from_fn(|row| rows[row][number]);
-            Box::new(Columns(std::array::from_fn(column)))
+            let are_few = given.len() <= Columns::ROWS / 4 * 3;
+            Box::new(Columns { columns: std::array::from_fn(column), are_few })
         });
         Self { rows, columns }
     }
@@ -46,14 +51,14 @@ impl Table {
     }
 }
 
-/// The rows that bytes of words name.
+/// The rows that bytes of numbers name.
 #[derive(Clone, Copy, Debug)]
 pub struct ByName<'a> {
     /// The rows.
     pub table: &'a Table,
-    /// Each lane's word.
-    pub words: &'a [u64; MOST_LANES],
-    /// Which byte of the words, lowest first.
+    /// Each lane's number.
+    pub names: &'a [u32; MOST_LANES],
+    /// Which byte of the numbers, lowest first.
     pub byte: usize,
 }
 
@@ -61,7 +66,7 @@ impl RowOfLane for ByName<'_> {
     #[inline(always)]
     fn row(&self, lane: usize) -> &[f32; 4] {
         // Little-endian, as controller-core demands.
-        let bytes: &[u8] = bytemuck::must_cast_slice(self.words);
-        &self.table.rows[usize::from(bytes[lane * size_of::<u64>() + self.byte])]
+        let bytes: &[u8] = bytemuck::must_cast_slice(self.names);
+        &self.table.rows[usize::from(bytes[lane * size_of::<u32>() + self.byte])]
     }
 }

@@ -1,6 +1,6 @@
 //! Every width against plain `f32`, as bits, over numbers that break shortcuts.
 
-use super::{ByName, Instructions, Kernel, MOST_LANES, RowOfLane, Slots, Table, Vector};
+use super::{ByName, Instructions, Kernel, MOST_LANES, RowOfLane, Slots, Table, Vector, ones};
 use crate::seed::{Purpose, RunSeed};
 use controller_core::lane::Lane;
 
@@ -167,11 +167,11 @@ impl Kernel for Named {
         let most = self.0.min(256);
         for name in 0..most {
             let of = |lane: usize, byte: usize| (name + 3 * lane + 7 * byte) % most;
-            let words: [u64; MOST_LANES] = std::array::from_fn(|lane| {
-                u64::from_le_bytes(std::array::from_fn(|byte| of(lane, byte) as u8))
+            let names: [u32; MOST_LANES] = std::array::from_fn(|lane| {
+                u32::from_le_bytes(std::array::from_fn(|byte| of(lane, byte) as u8))
             });
-            for byte in 0..8 {
-                let columns = V::named(ByName { table: &table, words: &words, byte });
+            for byte in 0..4 {
+                let columns = V::named(ByName { table: &table, names: &names, byte });
                 for (column, numbers) in columns.iter().enumerate() {
                     let expected = (0..V::WIDTH).map(|lane| row(of(lane, byte))[column]);
                     assert!(numbers.lanes().iter().copied().eq(expected), "{name} of {}", self.0);
@@ -182,11 +182,90 @@ impl Kernel for Named {
 }
 
 #[test]
-fn every_byte_of_a_word_names_its_row_in_tables_of_any_size() {
+fn every_byte_names_its_row_in_tables_of_any_size() {
     for set in Instructions::available() {
-        for rows in [1, 2, 16, 17, 33, 37, 64, 65, 255, 256] {
+        for rows in [1, 2, 16, 17, 33, 37, 48, 49, 64, 65, 255, 256] {
             set.run(Named(rows));
         }
+    }
+}
+
+/// Chooses lanes of numbers that must keep their very bits.
+struct Choose;
+
+impl Kernel for Choose {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let bits: [u32; MOST_LANES] = std::array::from_fn(|lane| 0x7f80_0001 + 977 * lane as u32);
+        let mut numbers = V::from(0.0);
+        for (number, bits) in numbers.lanes_mut().iter_mut().zip(bits) {
+            *number = f32::from_bits(bits);
+        }
+        let as_bits = |numbers: &V| -> Vec<u32> {
+            numbers.lanes().iter().map(|number| number.to_bits()).collect()
+        };
+        let every = 1_u64 << V::WIDTH;
+        for lanes in (0..every).step_by(if V::WIDTH > 8 { 37 } else { 1 }).map(|lanes| lanes as u32)
+        {
+            let chosen: Vec<usize> = ones(lanes).collect();
+            let squeezed = numbers.squeezed(lanes);
+            let expected: Vec<u32> = chosen.iter().map(|lane| bits[*lane]).collect();
+            assert_eq!(as_bits(&squeezed)[..chosen.len()], expected, "{lanes:b}");
+
+            let spread = as_bits(&squeezed.spread(lanes, V::from(1.5)));
+            for (lane, found) in spread.into_iter().enumerate() {
+                let expected = if chosen.contains(&lane) { bits[lane] } else { 1.5_f32.to_bits() };
+                assert_eq!(found, expected, "lane {lane} of {lanes:b}");
+            }
+
+            let flags = std::array::from_fn(|lane| 0x8100 | (lanes >> lane & 1) << 9);
+            assert_eq!(V::lanes_with(&flags, 0x600), lanes);
+        }
+    }
+}
+
+#[test]
+fn chosen_lanes_are_squeezed_together_and_spread_again() {
+    for set in Instructions::available() {
+        set.run(Choose);
+    }
+}
+
+/// Places of parts, for numbers around each half and whole one.
+struct Around(u32);
+
+impl Kernel for Around {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self(parts) = self;
+        let bases: [u32; MOST_LANES] = std::array::from_fn(|lane| 5 * lane as u32);
+        for halves in -600_i32..600 {
+            let number = |lane: usize| 0.5 * (halves + lane as i32) as f32;
+            for beside in [-0.001, 0.0, 0.001] {
+                let mut numbers = V::from(0.0);
+                for (lane, place) in numbers.lanes_mut().iter_mut().enumerate() {
+                    *place = number(lane) + beside;
+                }
+                let found = numbers.places_around(parts, &bases);
+                for (lane, found) in found.into_iter().enumerate().take(V::WIDTH) {
+                    let nearest = (number(lane) + beside).round_ties_even() as i32;
+                    let part = nearest.rem_euclid(parts.cast_signed()).cast_unsigned();
+                    assert_eq!(found, 5 * lane as u32 * parts + part, "{}", number(lane));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_lane_gets_the_place_of_the_part_that_is_nearest() {
+    for set in Instructions::available() {
+        set.run(Around(32));
+        set.run(Around(128));
     }
 }
 

@@ -318,6 +318,21 @@ impl Vector for Wide4 {
     }
 
     #[inline(always)]
+    fn places_around(self, parts: u32, bases: &[u32; MOST_LANES]) -> [u32; MOST_LANES] {
+        let mut places = [0; MOST_LANES];
+        // SAFETY: this type is only named where the CPU has its instructions; there are bases for all
+        // lanes, and there is room. A CPU rounds so unless it is told otherwise, which nobody does.
+        unsafe {
+            let shift = _mm_cvtsi64_si128(i64::from(parts.trailing_zeros()));
+            let bases = _mm_sll_epi32(_mm_loadu_si128(bases.as_ptr().cast()), shift);
+            let part =
+                _mm_and_si128(_mm_cvtps_epi32(self.0), _mm_set1_epi32((parts - 1).cast_signed()));
+            _mm_storeu_si128(places.as_mut_ptr().cast(), _mm_add_epi32(bases, part));
+        }
+        places
+    }
+
+    #[inline(always)]
     fn rows<R: RowOfLane>(rows: R) -> [Self; 4] {
         let mut four = [row(&rows, 0); 4];
         for (lane, four) in four.iter_mut().enumerate().skip(1) {
@@ -357,6 +372,23 @@ impl Vector for Wide8 {
     }
 
     #[inline(always)]
+    fn places_around(self, parts: u32, bases: &[u32; MOST_LANES]) -> [u32; MOST_LANES] {
+        let mut places = [0; MOST_LANES];
+        // SAFETY: this type is only named where the CPU has its instructions; there are bases for all
+        // lanes, and there is room. A CPU rounds so unless it is told otherwise, which nobody does.
+        unsafe {
+            let shift = _mm_cvtsi64_si128(i64::from(parts.trailing_zeros()));
+            let bases = _mm256_sll_epi32(_mm256_loadu_si256(bases.as_ptr().cast()), shift);
+            let part = _mm256_and_si256(
+                _mm256_cvtps_epi32(self.0),
+                _mm256_set1_epi32((parts - 1).cast_signed()),
+            );
+            _mm256_storeu_si256(places.as_mut_ptr().cast(), _mm256_add_epi32(bases, part));
+        }
+        places
+    }
+
+    #[inline(always)]
     fn rows<R: RowOfLane>(rows: R) -> [Self; 4] {
         let mut four = [Self::from(0.0).0; 4];
         for (lane, four) in four.iter_mut().enumerate() {
@@ -377,6 +409,7 @@ impl Vector for Wide8 {
 
 impl Vector for Wide16 {
     const WIDTH: usize = 16;
+    const SQUEEZES: bool = true;
 
     #[inline(always)]
     fn bits(mask: Mask16) -> u32 {
@@ -394,6 +427,23 @@ impl Vector for Wide16 {
         let mut places = [0; MOST_LANES];
         // SAFETY: this type is only named where the CPU has its instructions; there is room.
         unsafe { _mm512_storeu_si512(places.as_mut_ptr().cast(), _mm512_cvttps_epi32(self.0)) };
+        places
+    }
+
+    #[inline(always)]
+    fn places_around(self, parts: u32, bases: &[u32; MOST_LANES]) -> [u32; MOST_LANES] {
+        let mut places = [0; MOST_LANES];
+        // SAFETY: this type is only named where the CPU has its instructions; there are bases for all
+        // lanes, and there is room. A CPU rounds so unless it is told otherwise, which nobody does.
+        unsafe {
+            let shift = _mm_cvtsi64_si128(i64::from(parts.trailing_zeros()));
+            let bases = _mm512_sll_epi32(_mm512_loadu_si512(bases.as_ptr().cast()), shift);
+            let part = _mm512_and_si512(
+                _mm512_cvtps_epi32(self.0),
+                _mm512_set1_epi32((parts - 1).cast_signed()),
+            );
+            _mm512_storeu_si512(places.as_mut_ptr().cast(), _mm512_add_epi32(bases, part));
+        }
         places
     }
 
@@ -416,32 +466,51 @@ impl Vector for Wide16 {
     /// Takes few rows from registers: two of them are a table of 32 numbers.
     #[inline(always)]
     fn named(rows: ByName<'_>) -> [Self; 4] {
-        let Some(Columns(columns)) = rows.table.columns() else { return Self::rows(rows) };
-        // SAFETY: this type is only named where the CPU has its instructions; the words are eight
-        // and eight.
-        let (names, is_past) = unsafe {
+        let Some(Columns { columns, are_few }) = rows.table.columns() else {
+            return Self::rows(rows);
+        };
+        // SAFETY: this type is only named where the CPU has its instructions; the numbers are sixteen.
+        let (names, from_32, from_48) = unsafe {
             let shift = _mm_cvtsi64_si128(rows.byte as i64 * 8);
-            let words = rows.words.as_ptr();
-            let low = _mm512_srl_epi64(_mm512_loadu_si512(words.cast()), shift);
-            let high = _mm512_srl_epi64(_mm512_loadu_si512(words.add(8).cast()), shift);
-            let low = _mm512_castsi256_si512(_mm512_cvtepi64_epi32(low));
-            let names = _mm512_inserti64x4::<1>(low, _mm512_cvtepi64_epi32(high));
-            (names, _mm512_test_epi32_mask(names, _mm512_set1_epi32(32)))
+            let names = _mm512_srl_epi32(_mm512_loadu_si512(rows.names.as_ptr().cast()), shift);
+            let from_32 = _mm512_test_epi32_mask(names, _mm512_set1_epi32(32));
+            (names, from_32, _mm512_mask_test_epi32_mask(from_32, names, _mm512_set1_epi32(16)))
         };
         let mut four = [Self::from(0.0); 4];
         for (four, column) in four.iter_mut().zip(columns) {
             // SAFETY: this type is only named where the CPU has its instructions; a column has four
-            // times sixteen numbers, and of each name only as many bits count as it has.
+            // times sixteen numbers, and of each name only as many bits count as tell them apart.
             four.0 = unsafe {
                 let at = column.as_ptr();
                 let (a, b) = (_mm512_loadu_ps(at), _mm512_loadu_ps(at.add(16)));
                 let (c, d) = (_mm512_loadu_ps(at.add(32)), _mm512_loadu_ps(at.add(48)));
                 let near = _mm512_permutex2var_ps(a, names, b);
-                let past = _mm512_permutex2var_ps(c, names, d);
-                _mm512_mask_blend_ps(is_past, near, past)
+                let past = _mm512_mask_permutexvar_ps(near, from_32, names, c);
+                if *are_few { past } else { _mm512_mask_permutexvar_ps(past, from_48, names, d) }
             };
         }
         four
+    }
+
+    #[inline(always)]
+    fn lanes_with(numbers: &[u32; MOST_LANES], bits: u32) -> u32 {
+        // SAFETY: this type is only named where the CPU has its instructions; the numbers are sixteen.
+        u32::from(unsafe {
+            let numbers = _mm512_loadu_si512(numbers.as_ptr().cast());
+            _mm512_test_epi32_mask(numbers, _mm512_set1_epi32(bits.cast_signed()))
+        })
+    }
+
+    #[inline(always)]
+    fn squeezed(self, lanes: u32) -> Self {
+        // SAFETY: this type is only named where the CPU has its instructions.
+        Self(unsafe { _mm512_maskz_compress_ps(lanes as u16, self.0) })
+    }
+
+    #[inline(always)]
+    fn spread(self, lanes: u32, rest: Self) -> Self {
+        // SAFETY: this type is only named where the CPU has its instructions.
+        Self(unsafe { _mm512_mask_expand_ps(rest.0, lanes as u16, self.0) })
     }
 
     #[inline(always)]

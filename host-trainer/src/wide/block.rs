@@ -3,10 +3,9 @@
 use super::cars::Cars;
 use super::forward::Networks;
 use super::queue::{Job, Queue};
-use super::tape::Tapes;
-use super::{Done, Fleet, SLOTS, Tally};
-use crate::car::CarModel;
-use crate::episode::{Outcome, start_pose};
+use super::starts::{Starts, begin};
+use super::{Done, Fleet, SLOTS, Tally, Work};
+use crate::episode::Outcome;
 use crate::vector::{Vector, ones};
 use crate::world::Glance;
 use controller_core::observation::BEAMS;
@@ -20,6 +19,7 @@ const PATIENCE: u64 = 5;
 pub(super) struct Block<'a, V> {
     fleet: &'a Fleet<'a>,
     queue: &'a Queue<'a>,
+    starts: &'a Starts,
     networks: Networks<V>,
     cars: [Cars<'a, V>; SLOTS],
     glance: Glance<V, SLOTS, { SLOTS * BEAMS }>,
@@ -53,13 +53,14 @@ struct Drive {
 
 impl<'a, V: Vector> Block<'a, V> {
     /// A block without drives.
-    pub(super) fn new(fleet: &'a Fleet<'a>, queue: &'a Queue<'a>, tapes: &'a Tapes) -> Self {
+    pub(super) fn new(Work { fleet, queue, starts, tapes }: Work<'a>) -> Self {
         let problem = fleet.problem;
         let (model, radius) = (problem.model(), problem.world.target_radius);
         let cars = || Cars::new(model, radius, tapes.source(model, V::WIDTH));
         Self {
             fleet,
             queue,
+            starts,
             networks: Networks::new(problem.topology(), problem.activation()),
             cars: [(); SLOTS].map(|()| cars()),
             glance: Glance::default(),
@@ -197,15 +198,15 @@ impl<'a, V: Vector> Block<'a, V> {
 
     /// Puts a car at the start of its drive.
     fn start(&mut self, lane: usize, slot: usize) {
-        let problem = self.fleet.problem;
-        let model: &CarModel = problem.model();
-        let index = self.drives[lane][slot].pair;
-        let pair = &self.fleet.pairs[index];
-        let mut random = (self.fleet.random)(index as u32);
-        let spec = &problem.scenario.episode;
-        let pose = start_pose(&problem.world, model, spec, pair, &mut random);
-        let exemplar = model.exemplar(&mut random);
-        self.cars[slot].put(lane, &pose, pair.goal, &exemplar, (index, random));
+        let pair = self.drives[lane][slot].pair;
+        let goal = self.fleet.pairs[pair].goal;
+        let (fleet, cars) = (self.fleet, &mut self.cars[slot]);
+        if let Some(start) = self.starts.kept(fleet, pair) {
+            cars.put(lane, start, (pair, goal), || begin(fleet, pair).1);
+        } else {
+            let (start, random) = begin(fleet, pair);
+            cars.put(lane, &start, (pair, goal), || random);
+        }
         self.networks.forget(slot, lane);
     }
 
@@ -229,13 +230,19 @@ impl<'a, V: Vector> Block<'a, V> {
                 self.cars[slot].misread(model);
             }
         }
-        lookout.look(fan, &poses, &live, &mut self.glance);
-        for slot in 0..SLOTS {
-            if live[slot] == 0 {
+        lookout.ask(fan, &poses, &live, &mut self.glance);
+        // Meanwhile what walls they may see is loaded.
+        for (cars, rays) in self.cars.iter_mut().zip(&self.glance.rays) {
+            if cars.live != 0 {
+                cars.aim(rays);
+            }
+        }
+        lookout.see(fan, &poses, &live, &mut self.glance);
+        for (slot, cars) in self.cars.iter().enumerate() {
+            if cars.live == 0 {
                 continue;
             }
-            let Glance { rays, distances, .. } = &self.glance;
-            let sight = self.cars[slot].sense(model, &rays[slot], &distances[slot]);
+            let sight = cars.sense(model, &self.glance.distances[slot]);
             let inputs = scaling.encoding.inputs(&sight, scaling.range);
             for (all, input) in self.networks.inputs.iter_mut().zip(inputs) {
                 all.0[slot] = input;

@@ -1,7 +1,8 @@
 //! One car in each lane: what they see, and how they move.
 
+use super::starts::Start;
 use super::tape::Source;
-use crate::car::{CarModel, Exemplar, Misreading};
+use crate::car::{CarModel, Misreading};
 use crate::episode::Outcome;
 use crate::seed::Stream;
 use crate::vector::{Vector, ones};
@@ -16,6 +17,8 @@ use controller_core::observation::{BEAMS, Sight};
 pub(super) struct Cars<'a, V> {
     pub(super) pose: Pose<V>,
     target: Disc<V>,
+    /// How far the target is along each beam, metres.
+    to_target: [V; BEAMS],
     wheelbase: V,
     step_scale: V,
     steer_offset: V,
@@ -51,6 +54,7 @@ impl<'a, V: Vector> Cars<'a, V> {
         Self {
             pose: Pose { x: zero, y: zero, heading: zero, cos: one, sin: zero },
             target: Disc { centre: (zero, zero), radius: V::from(target_radius) },
+            to_target: [zero; BEAMS],
             wheelbase: one,
             step_scale: one,
             steer_offset: zero,
@@ -66,21 +70,20 @@ impl<'a, V: Vector> Cars<'a, V> {
         }
     }
 
-    /// Puts a car at its start, from where it drives this pair of the fleet.
+    /// Puts a car at its start, from where it drives this pair of the fleet to its goal.
     pub(super) fn put(
         &mut self,
         lane: usize,
-        start: &Pose<f32>,
-        goal: [f32; 2],
-        exemplar: &Exemplar,
-        (pair, random): (usize, Stream),
+        Start { pose, exemplar }: &Start,
+        (pair, goal): (usize, [f32; 2]),
+        random: impl FnOnce() -> Stream,
     ) {
         let numbers = [
-            start.x,
-            start.y,
-            start.heading,
-            start.cos,
-            start.sin,
+            pose.x,
+            pose.y,
+            pose.heading,
+            pose.cos,
+            pose.sin,
             goal[0],
             goal[1],
             exemplar.wheelbase,
@@ -173,20 +176,22 @@ impl<'a, V: Vector> Cars<'a, V> {
         });
     }
 
-    /// What the beams report that have these rays and meet walls at these distances.
+    /// Finds out how far the target is along these beams.
     #[inline(always)]
-    pub(super) fn sense(
-        &self,
-        model: &CarModel,
-        rays: &[Ray<V>; BEAMS],
-        walls: &[V; BEAMS],
-    ) -> Sight<V> {
+    pub(super) fn aim(&mut self, rays: &[Ray<V>; BEAMS]) {
+        for (distance, ray) in self.to_target.iter_mut().zip(rays) {
+            *distance = ray.to_disc(&self.target);
+        }
+    }
+
+    /// What the beams report that meet walls at these distances.
+    #[inline(always)]
+    pub(super) fn sense(&self, model: &CarModel, walls: &[V; BEAMS]) -> Sight<V> {
         let (zero, one) = (V::from(0.0), V::from(1.0));
         let mut sight =
             Sight { distance: [zero; BEAMS], wall: [zero; BEAMS], target: [zero; BEAMS] };
-        for beam in 0..BEAMS {
-            let target = rays[beam].to_disc(&self.target);
-            let mut hit = model.hit(walls[beam], target);
+        for (beam, (wall, target)) in walls.iter().zip(self.to_target).enumerate() {
+            let mut hit = model.hit(*wall, target);
             if model.is_disturbed() {
                 hit = model.misread(hit, self.misreading.error[beam]);
             }

@@ -118,15 +118,15 @@ pub(super) struct Reader<'a> {
 }
 
 impl Source<'_> {
-    /// The car in this lane begins to drive that pair, with these random numbers.
-    pub(super) fn begin(&mut self, lane: usize, pair: usize, random: Stream) {
+    /// The car in this lane begins to drive that pair, with these random numbers, if it needs any.
+    pub(super) fn begin(&mut self, lane: usize, pair: usize, random: impl FnOnce() -> Stream) {
         match self {
             Self::Nothing => {}
-            Self::Streams(streams) => streams[lane] = Some(random),
+            Self::Streams(streams) => streams[lane] = Some(random()),
             Self::Tapes(tapes, readers) => {
                 let tape = &tapes[pair];
                 // Whoever comes first; everybody has the same numbers.
-                tape.random.get_or_init(|| Mutex::new(random));
+                tape.random.get_or_init(|| Mutex::new(random()));
                 readers[lane] = Reader { tape: Some(tape), ..Reader::default() };
             }
         }

@@ -2,8 +2,9 @@
 
 use super::block::Block;
 use super::queue::Queue;
+use super::starts::Starts;
 use super::tape::Tapes;
-use super::{Fleet, SLOTS, Tally};
+use super::{Fleet, SLOTS, Tally, Work};
 use crate::disturbances::Disturbances;
 use crate::episode::{Outcome, Trace};
 use crate::pairs::PairSampler;
@@ -197,9 +198,7 @@ fn ten_million_steps_of_a_fleet_are_those_of_drives_alone() {
 
 /// Steps a block by hand and looks at every car before each step.
 struct Watch<'a> {
-    fleet: &'a Fleet<'a>,
-    queue: &'a Queue<'a>,
-    tapes: &'a Tapes,
+    work: Work<'a>,
     traces: &'a [Trace],
     /// Steps before each car is given weights of its own.
     together: usize,
@@ -210,7 +209,7 @@ impl Kernel for Watch<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(self) -> usize {
-        let mut block = Block::<V>::new(self.fleet, self.queue, self.tapes);
+        let mut block = Block::<V>::new(self.work);
         let (mut seen, mut steps) = (0, 0);
         while block.fill() {
             if steps == self.together {
@@ -270,9 +269,9 @@ fn watch(individuals: usize, count: u32, together: usize) {
     for set in Instructions::available() {
         let stop = StopFlag::default();
         let queue = Queue::new(individuals, pairs.len(), &stop);
-        let tapes = Tapes::of(&fleet);
-        let watch =
-            Watch { fleet: &fleet, queue: &queue, tapes: &tapes, traces: &traces, together };
+        let (starts, tapes) = (Starts::of(&fleet), Tapes::of(&fleet));
+        let work = Work { fleet: &fleet, queue: &queue, starts: &starts, tapes: &tapes };
+        let watch = Watch { work, traces: &traces, together };
         let seen = set.run(watch);
         assert_eq!(seen, steps, "{set}");
     }
@@ -314,8 +313,9 @@ impl Kernel for Waiting<'_> {
     fn run<V: Vector>(self) -> Waited {
         let stop = StopFlag::default();
         let queue = Queue::new(self.0.individuals(), self.0.pairs.len(), &stop);
-        let tapes = Tapes::of(self.0);
-        let mut block = Block::<V>::new(self.0, &queue, &tapes);
+        let (starts, tapes) = (Starts::of(self.0), Tapes::of(self.0));
+        let work = Work { fleet: self.0, queue: &queue, starts: &starts, tapes: &tapes };
+        let mut block = Block::<V>::new(work);
         let mut waited = Waited { separate: false, busy: 0.0, ending: 0, spread: 0 };
         let mut periods = 0;
         while block.fill() {

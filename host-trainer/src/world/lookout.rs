@@ -17,7 +17,7 @@
 //! | `fan` | the beams of a car |
 //! | `glance` | what many cars see at once |
 //! | `grid` | which cell, which part of a turn |
-//! | `beams` | the tests, many beams side by side |
+//! | `beams`, `later` | the tests, many beams side by side; those that have to be tested with more than others |
 //! | `shelf` | what is found once for each cell |
 //! | `words`, `asked` | how it is kept in few bytes, and read for many beams at once |
 //! | `field` | how far beams may go at once, where lists would be long, and the few long walls there |
@@ -36,6 +36,7 @@ mod field;
 mod glance;
 mod grid;
 mod kept;
+mod later;
 mod legends;
 mod reach;
 mod rounding;
@@ -45,14 +46,15 @@ mod words;
 
 use super::obstacles::Obstacles;
 use crate::vector::{Vector, ones};
-use asked::{Asked, ByNames};
+use asked::{Asked, ByNames, IN_HALF, Names};
 use beams::Met;
-use cell::SECTORS;
+use cell::{BINS, SECTORS};
 use controller_core::geometry::{Body, Disc, Ray, Segment};
 use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
 use field::Field;
 use grid::{Grid, Turned};
+use later::Later;
 use rounding::MOST_ERROR;
 use shelf::{Question, Shelf, Sure};
 use std::sync::Arc;
@@ -99,20 +101,31 @@ impl Lookout {
         live: &[u32; N],
         glance: &mut Glance<V, N, Q>,
     ) {
-        let Glance { rays, distances, asked } = glance;
+        self.ask(fan, poses, live, glance);
+        self.see(fan, poses, live, glance);
+    }
+
+    /// The first half of [`Self::look`]: the beams, and what has to be loaded to know how far they go. That takes a
+    /// while, in which something else can be done before the other half.
+    #[inline(always)]
+    pub fn ask<V: Vector, const N: usize, const Q: usize>(
+        &self,
+        fan: &Fan,
+        poses: &[Pose<V>; N],
+        live: &[u32; N],
+        Glance { rays, asked, .. }: &mut Glance<V, N, Q>,
+    ) {
         let cars = || (0..N).filter(|car| live[*car] != 0);
-        if let Some(field) = &self.field {
-            for car in cars() {
-                fan.cast(&poses[car], &mut rays[car]);
-            }
-            field.distances(&self.obstacles, rays, live, distances);
+        for car in cars() {
+            fan.cast(&poses[car], &mut rays[car]);
+        }
+        if self.field.is_some() {
             return;
         }
         // First where everything lies that is to be loaded, for which a large world has to be asked itself; then
         // loading it, then everything that is to be computed: so the CPU never waits for the one to begin the other.
         let mut cells = [V::from(0.0); N];
         for car in cars() {
-            fan.cast(&poses[car], &mut rays[car]);
             cells[car] = self.grid.locate(rays[car][0].origin);
             self.shelf.fetch_shelves(cells[car]);
         }
@@ -123,25 +136,40 @@ impl Lookout {
                 if beam > 0 && !fan.has_one_origin() {
                     shelves = self.shelf.shelves(self.grid.locate(ray.origin));
                 }
-                let bins = fan.bins(beam, heading);
-                self.shelf.ask_seen(asked, car * BEAMS + beam, &shelves, bins);
-                // What the beams between them ask for mostly lies in the same lines of the cache.
-                if beam % 2 == 0 {
+                let direction = (heading, fan.bins(beam));
+                self.shelf.ask_seen(asked, car * BEAMS + beam, &shelves, direction);
+                if fan.is_fetched(beam) {
                     self.shelf.fetch_seen::<V, Q>(asked, car * BEAMS + beam);
                 }
             }
         }
+    }
+
+    /// The second half of [`Self::look`], of the same cars as the first: how far the beams go.
+    #[inline(always)]
+    pub fn see<V: Vector, const N: usize, const Q: usize>(
+        &self,
+        fan: &Fan,
+        poses: &[Pose<V>; N],
+        live: &[u32; N],
+        Glance { rays, distances, asked, first, later }: &mut Glance<V, N, Q>,
+    ) {
+        if let Some(field) = &self.field {
+            field.distances(&self.obstacles, rays, live, distances);
+            return;
+        }
         let questions = self.shelf.answer_seen::<V, Q>(asked, live);
         let (rays, distances) = (rays.as_flattened(), distances.as_flattened_mut());
+        let test = Test { asked, rays, distances, first, later };
         // Four times the same code, so that nobody has to ask this for each obstacle.
         let open = match (self.shelf.is_large(), self.shelf.has_discs()) {
-            (false, false) => self.meet::<V, Q, false, false>(asked, questions, rays, distances),
-            (false, true) => self.meet::<V, Q, false, true>(asked, questions, rays, distances),
-            (true, false) => self.meet::<V, Q, true, false>(asked, questions, rays, distances),
-            (true, true) => self.meet::<V, Q, true, true>(asked, questions, rays, distances),
+            (false, false) => self.meet::<V, Q, false, false>(questions, test),
+            (false, true) => self.meet::<V, Q, false, true>(questions, test),
+            (true, false) => self.meet::<V, Q, true, false>(questions, test),
+            (true, true) => self.meet::<V, Q, true, true>(questions, test),
         };
         for question in ones(open) {
-            asked.close::<V>(question, live[question / BEAMS]);
+            self.shelf.close_seen(asked, question, live[question / BEAMS]);
             self.shelf.fetch_whole(asked, question);
         }
         for question in ones(open) {
@@ -153,7 +181,11 @@ impl Lookout {
                 let distance = &mut distance.lanes_mut()[lane];
                 *distance = match self.by_whole(&ray, asked, question, lane) {
                     Some(distance) => distance,
-                    None => self.settled(&ray, fan.bins(beam, Turned::by(heading)) as u32),
+                    None => {
+                        let heading = Turned::<f32, BINS>::by(heading);
+                        let bin = heading.part_beside(fan.bins(beam));
+                        self.settled(&ray, bin)
+                    }
                 };
             }
         }
@@ -163,32 +195,111 @@ impl Lookout {
     #[inline(always)]
     fn meet<V: Vector, const Q: usize, const IS_LARGE: bool, const HAS_DISCS: bool>(
         &self,
-        asked: &mut Asked<Q>,
         questions: ByNames,
-        rays: &[Ray<V>],
-        distances: &mut [V],
+        test: Test<'_, V, Q>,
     ) -> u32 {
-        let mut all_open = 0;
-        // All with as many names one after the other, so that the CPU knows beforehand how often to go round.
+        if V::SQUEEZES && !IS_LARGE {
+            self.meet_without_gaps::<V, Q, HAS_DISCS>(test)
+        } else {
+            self.meet_by_length::<V, Q, IS_LARGE, HAS_DISCS>(questions, test)
+        }
+    }
+
+    /// The same, all questions with as many names one after the other: so the CPU knows beforehand how often to go
+    /// round.
+    #[inline(always)]
+    fn meet_by_length<V: Vector, const Q: usize, const IS_LARGE: bool, const HAS_DISCS: bool>(
+        &self,
+        questions: ByNames,
+        Test { asked, rays, distances, .. }: Test<'_, V, Q>,
+    ) -> u32 {
+        let mut open = 0;
         for (names, questions) in questions.into_iter().enumerate() {
             for question in ones(questions) {
-                let ray = &rays[question];
                 let mut met = Met::nothing();
                 for round in 0..names {
-                    let rows = self.shelf.edges::<V, Q, IS_LARGE>(asked, question, round);
-                    if HAS_DISCS {
-                        met.any(ray, rows);
-                    } else {
-                        met.wall(ray, rows);
-                    }
+                    let names = asked.names(question, round);
+                    self.test::<V, IS_LARGE, HAS_DISCS>(&mut met, &rays[question], names);
                 }
-                distances[question] = met.nearest(self.range);
-                let doubtful = V::bits(met.doubtful(self.slack));
-                let is_open = asked.leave_open::<V>(question, doubtful);
-                all_open |= u32::from(is_open) << question;
+                open |= self.finish(asked, question, &met, distances);
             }
         }
-        all_open
+        open
+    }
+
+    /// The same in a small world, first with the first name of all, then with more names only [those that have
+    /// them](later).
+    #[inline(always)]
+    fn meet_without_gaps<V: Vector, const Q: usize, const HAS_DISCS: bool>(
+        &self,
+        Test { asked, rays, distances, first, later }: Test<'_, V, Q>,
+    ) -> u32 {
+        later.clear();
+        for (question, ray) in rays.iter().enumerate() {
+            let mut met = Met::nothing();
+            let names = asked.longest(question);
+            if names > 0 {
+                self.test::<V, false, HAS_DISCS>(&mut met, ray, asked.names(question, 0));
+            }
+            if names > 1 && names <= IN_HALF {
+                later.add(question, ray, asked.names(question, 1));
+            } else {
+                later.add_none(question);
+                for round in 1..names {
+                    let names = asked.names(question, round);
+                    self.test::<V, false, HAS_DISCS>(&mut met, ray, names);
+                }
+            }
+            first[question] = met;
+        }
+        for vector in 0..later.vectors() {
+            let (ray, mut met) = (later.ray(vector), Met::nothing());
+            let mut round = 1;
+            while let Some(names) = later.names(vector, round) {
+                self.test::<V, false, HAS_DISCS>(&mut met, &ray, names);
+                round += 1;
+            }
+            later.set_met(vector, &met);
+        }
+        let (mut taken, mut open) = (0, 0);
+        for (question, met) in first.iter_mut().enumerate() {
+            if let Some(more) = later.met(question, &mut taken) {
+                met.and(&more);
+            }
+            open |= self.finish(asked, question, met, distances);
+        }
+        open
+    }
+
+    /// Writes down how far a question's beams go that have met this; returns the question as a bit if that is
+    /// left open in any lane.
+    #[inline(always)]
+    fn finish<V: Vector, const Q: usize>(
+        &self,
+        asked: &mut Asked<Q>,
+        question: usize,
+        met: &Met<V>,
+        distances: &mut [V],
+    ) -> u32 {
+        distances[question] = met.nearest(self.range);
+        let doubtful = V::bits(met.doubtful(self.slack));
+        u32::from(asked.leave_open::<V>(question, doubtful)) << question
+    }
+
+    /// Tests beams with what these names name.
+    #[inline(always)]
+    fn test<V: Vector, const IS_LARGE: bool, const HAS_DISCS: bool>(
+        &self,
+        met: &mut Met<V>,
+        ray: &Ray<V>,
+        names: Names<'_>,
+    ) {
+        let rows = self.shelf.edges::<V, IS_LARGE>(names);
+        if HAS_DISCS {
+            met.any(ray, rows);
+        } else {
+            met.wall(ray, rows);
+        }
     }
 
     /// Which of the bodies at these poses touch an obstacle's edge, or lie inside a disc, as
@@ -213,8 +324,8 @@ impl Lookout {
                 continue;
             }
             let shelves = self.shelf.shelves(self.grid.locate((poses[car].x, poses[car].y)));
-            let sectors = Turned::<V, SECTORS>::by(poses[car].heading).part();
-            self.shelf.ask_near(&mut asked, car, &shelves, sectors);
+            let heading = Turned::<V, SECTORS>::by(poses[car].heading);
+            self.shelf.ask_near(&mut asked, car, &shelves, heading);
         }
         let by_names = self.shelf.answer_near::<V, N>(&mut asked, &live);
         let Body { rear, front, half_width } = *body;
@@ -224,7 +335,7 @@ impl Lookout {
         for (names, cars) in by_names.into_iter().enumerate().skip(1) {
             for car in ones(cars) {
                 for round in 0..names {
-                    let [a, b, c, d] = self.shelf.faces(&asked, car, round);
+                    let [a, b, c, d] = self.shelf.faces(asked.names(car, round));
                     let wall = Segment { a: (a, b), b: (c, d) };
                     let mut touches = wide.touches_segment(&poses[car], &wall);
                     if self.shelf.has_discs() {
@@ -247,8 +358,7 @@ impl Lookout {
         touched
     }
 
-    /// The distance along a beam whose question is open, if there is a longer list in a word and it reaches far
-    /// enough.
+    /// The distance along a beam whose question is open, if there is a longer list in a word.
     #[inline(never)]
     fn by_whole<const N: usize>(
         &self,
@@ -259,8 +369,7 @@ impl Lookout {
     ) -> Option<f32> {
         let mut met = Met::<f32>::nothing();
         let beyond = self.shelf.each_of_whole(asked, question, lane, |row| met.any(ray, *row))?;
-        let nearest = met.nearest(self.range);
-        (nearest.min(self.range) <= beyond).then_some(nearest)
+        Some(self.within(ray, met.nearest(self.range), beyond))
     }
 
     /// The distance along a beam whose word does not say everything, or that passes a wall's end too closely to be
@@ -274,20 +383,23 @@ impl Lookout {
         let sure = self.shelf.each(&self.grid, &self.obstacles, cell, question, |row| {
             met.any(ray, *row);
         });
-        let mut reach = self.range;
-        if let Some(sure) = sure {
-            let nearest = met.nearest(self.range);
-            let is_sure = match sure {
-                Sure::Within(beyond) => nearest.min(self.range) <= beyond,
-                Sure::UnlessDoubtful => !met.doubtful(self.slack),
-            };
-            if is_sure {
-                return nearest;
-            }
-            // What was left out and is computed as nearer is met before this.
-            reach = reach.min(nearest + 2.0 * MOST_ERROR as f32);
+        let nearest = met.nearest(self.range);
+        match sure {
+            Some(Sure::UnlessDoubtful) if !met.doubtful(self.slack) => nearest,
+            Some(Sure::UnlessDoubtful) => self.within(ray, nearest, 0.0),
+            Some(Sure::Within(beyond)) => self.within(ray, nearest, beyond),
+            None => self.within(ray, f32::INFINITY, 0.0),
         }
-        let distance = self.obstacles.distance(ray, reach).min(met.nearest(self.range));
+    }
+
+    /// The distance along a beam that is `nearest` for all that may be met before `beyond`, metres.
+    fn within(&self, ray: &Ray<f32>, nearest: f32, beyond: f32) -> f32 {
+        if nearest.min(self.range) <= beyond {
+            return nearest;
+        }
+        // What was left out and is computed as nearer is met before this.
+        let reach = self.range.min(nearest + 2.0 * MOST_ERROR as f32);
+        let distance = self.obstacles.distance(ray, reach).min(nearest);
         if distance <= self.range { distance } else { f32::INFINITY }
     }
 
@@ -305,7 +417,7 @@ impl Lookout {
                 sin: number(pose.sin),
             };
             let cell = self.grid.locate((pose.x, pose.y)) as u32;
-            let sector = Turned::<f32, SECTORS>::by(pose.heading).part() as u32;
+            let sector = Turned::<f32, SECTORS>::by(pose.heading).part();
             let touches = self.settled_touch(body, &pose, cell, sector);
             touched |= u32::from(touches) << lane;
         }
@@ -335,6 +447,15 @@ impl Lookout {
     pub fn survey(&self) -> Survey {
         self.shelf.survey(&self.grid, &self.obstacles)
     }
+}
+
+/// Beams that are being tested, and where it is written down.
+struct Test<'a, V, const Q: usize> {
+    asked: &'a mut Asked<Q>,
+    rays: &'a [Ray<V>],
+    distances: &'a mut [V],
+    first: &'a mut [Met<V>; Q],
+    later: &'a mut Later<V, Q>,
 }
 
 /// Whether a body does not reach beyond another, but for what rounding adds to it, which the margins

@@ -164,11 +164,15 @@ impl Kernel for SideBySide<'_> {
                 car.sin.lanes_mut()[lane] = of(pose.sin);
             }
             lookout.look(&pair.fan, &cars, &live, &mut glance);
+            let touched = lookout.touches(&pair.body, &cars, &live);
             for (place, pose) in poses.iter().enumerate() {
                 let (car, lane) = (place / V::WIDTH, place % V::WIDTH);
+                let touches = touched[car] >> lane & 1 == 1;
                 if live[car] >> lane & 1 == 0 {
+                    assert!(!touches, "nobody asked at {pose:?}");
                     continue;
                 }
+                assert_eq!(touches, pair.feel(&pair.body, pose), "at {pose:?}");
                 for (beam, alone) in pair.look(pose).into_iter().enumerate() {
                     let found = glance.distances[car][beam].lanes()[lane];
                     assert_eq!(found.to_bits(), alone.to_bits(), "beam {beam} at {pose:?}");
@@ -177,6 +181,102 @@ impl Kernel for SideBySide<'_> {
             }
         }
         compared
+    }
+}
+
+/// Rows of posts, far apart, of which a beam may meet any number first, and a long body touch many at once.
+#[test]
+fn lanes_see_and_feel_what_a_car_alone_does_however_many_obstacles_may_be_first() {
+    const LORRY: Body<f32> = Body { rear: -2.2, front: 0.4, half_width: 0.5 };
+    for (has_discs, is_large) in [(false, false), (true, false), (false, true), (true, true)] {
+        let (mut walls, mut discs) = (Vec::new(), Vec::new());
+        for (row, across) in
+            [12.0, 15.0, 18.0].into_iter().flat_map(|row| (-16..16).map(move |at| (row, at)))
+        {
+            let (x, y) = (row, 0.25 * across as f32);
+            if has_discs && across % 3 == 0 {
+                discs.push(Disc { centre: (x, y), radius: 0.02 });
+            } else {
+                walls.push(Segment { a: (x, y), b: (x + 0.01, y + 0.03) });
+            }
+        }
+        if is_large {
+            let far = |at: i16| Segment { a: (at.into(), 90.0), b: (f32::from(at) + 0.5, 90.0) };
+            walls.extend((0..300).map(far));
+        }
+        let mut mounts = mounts([-50.0, -9.0, 0.0, 4.0, 75.0]);
+        if has_discs {
+            (mounts[1].y, mounts[3].x) = (-0.2, 0.3);
+        }
+        let mut pair = Pair::new(walls, discs, Fan::new(&mounts, 25.0), LORRY);
+        assert!(!pair.lookout.beams_walk());
+        let mut random = random(75);
+        let mut poses = Vec::new();
+        for _ in 0..3_000 {
+            let x = if random.chance(0.2) {
+                random.within(11.0, 19.0)
+            } else {
+                random.within(0.0, 3.0)
+            };
+            poses.push(Pose::new(x, random.within(-1.5, 1.5), random.within(-0.4, 0.4)));
+            pair.compare(&poses[poses.len() - 1]);
+        }
+        let survey = pair.lookout.survey();
+        for names in [0, 1, 2, 4, 5, 7] {
+            assert!(survey.seen.contains(&names), "no list of {names} for beams");
+        }
+        assert!(survey.seen.last() > Some(&7), "no list that is too long for a word");
+        assert!(survey.near.last() > Some(&4), "contacts have {:?} at most", survey.near.last());
+        for set in Instructions::available() {
+            let compared = set.run(SideBySide(&pair, &poses));
+            assert!(compared > 8_000, "{set}: {compared} beams");
+        }
+        assert!(pair.seen > 1_500 && pair.touched > 200, "{}, {}", pair.seen, pair.touched);
+    }
+}
+
+/// Whoever comes first to a place has it looked at, and others may come while that goes on.
+#[test]
+fn threads_that_come_to_new_places_together_see_what_one_alone_does() {
+    for posts in [40_u16, 700] {
+        let mut random = random(posts.into());
+        let mut wall = |length: f32| {
+            let (x, y) = (random.within(0.0, 25.0), random.within(0.0, 25.0));
+            let turn = random.within(-PI, PI);
+            Segment { a: (x, y), b: (x + length * libm::cosf(turn), y + length * libm::sinf(turn)) }
+        };
+        let walls: Vec<_> = (0..posts).map(|_| wall(0.4)).collect();
+        let mut pair = Pair::new(walls, Vec::new(), Fan::new(&mounts(USUAL), 12.0), BODY);
+        assert!(!pair.lookout.beams_walk());
+        let mut poses = Vec::new();
+        for _ in 0..600 {
+            let (x, y) = (random.within(8.0, 10.0), random.within(8.0, 10.0));
+            poses.push(Pose::new(x, y, random.within(-PI, PI)));
+        }
+        let obstacles = Arc::new(Obstacles::new(pair.truth.walls.clone(), Vec::new()));
+        let shared = Lookout::new(obstacles, pair.fan.range(), BODY, Cells::Fine);
+        let (fan, cars) = (&pair.fan, &poses);
+        let visit = |first: usize| {
+            let mut glance = Glance::<f32, 1, BEAMS>::default();
+            let mut seen = vec![[0; BEAMS]; cars.len()];
+            for at in 0..cars.len() {
+                // All begin in the same places, then go on in different ones.
+                let at = if at < 50 { at } else { (at + first) % cars.len() };
+                shared.look(fan, &[cars[at]], &[1], &mut glance);
+                seen[at] = glance.distances[0].map(f32::to_bits);
+            }
+            seen
+        };
+        let by_all: Vec<_> = std::thread::scope(|scope| {
+            let threads = [0, 150, 300, 450].map(|first| scope.spawn(move || visit(first)));
+            threads.into_iter().map(|thread| thread.join().unwrap()).collect()
+        });
+        for (at, pose) in poses.iter().enumerate() {
+            pair.compare(pose);
+            let alone = pair.look(pose).map(f32::to_bits);
+            let seen = by_all.iter().map(|seen| seen[at]).filter(|seen| *seen != [0; BEAMS]);
+            assert!(seen.clone().count() > 0 && seen.into_iter().all(|seen| seen == alone));
+        }
     }
 }
 

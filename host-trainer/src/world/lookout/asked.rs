@@ -3,10 +3,16 @@
 use super::beams::Row;
 use super::legends::Meanings;
 use super::words::{AllWords, JOINT, NAME, NAMED, NAMES, UNKNOWN, Word};
-use crate::vector::{MOST_LANES, RowOfLane, Vector, fetch};
+use crate::vector::{MOST_LANES, RowOfLane, Vector, fetch, ones};
 use std::sync::atomic::AtomicU16;
 
-/// Questions as bits, by how many names their longest word has.
+/// Names in the low half of a word.
+pub(super) const IN_HALF: usize = (u32::BITS / NAME) as usize;
+
+/// What the high half of a word says: further names, and that they are not all there are.
+const IN_HIGH: Word = (NAMED | UNKNOWN) & !(u32::MAX as Word);
+
+/// Questions as bits, by how many names their longest word has; those that nobody asks are left out.
 pub(super) type ByNames = [u32; NAMES + 1];
 
 /// Questions of `N` times several robots, and the words that answer them.
@@ -15,13 +21,27 @@ pub(super) type ByNames = [u32; NAMES + 1];
 pub(super) struct Asked<const N: usize> {
     /// Where the words' numbers are.
     places: [[u32; MOST_LANES]; N],
-    words: [[Word; MOST_LANES]; N],
+    /// The low halves of the words: their first names.
+    low: [[u32; MOST_LANES]; N],
+    /// The high halves, where any lane's says something of [`IN_HIGH`].
+    high: [[u32; MOST_LANES]; N],
     /// Where the legends start by which the words are to be read, in a large world.
     legend_starts: [[u32; MOST_LANES]; N],
     /// What is set in any lane's word.
     any: [Word; N],
     /// Lanes in which a question may have been left open, as bits.
     open: [u32; N],
+}
+
+/// A name of every lane.
+#[derive(Clone, Copy)]
+pub(super) struct Names<'a> {
+    /// Halves of words.
+    pub(super) halves: &'a [u32; MOST_LANES],
+    /// Which name of each.
+    pub(super) byte: usize,
+    /// Where the legends to them start, in a large world.
+    pub(super) legend_starts: &'a [u32; MOST_LANES],
 }
 
 impl<const N: usize> Asked<N> {
@@ -31,7 +51,8 @@ impl<const N: usize> Asked<N> {
         const { assert!(N <= u32::BITS as usize) };
         Self {
             places: [[0; MOST_LANES]; N],
-            words: [[0; MOST_LANES]; N],
+            low: [[0; MOST_LANES]; N],
+            high: [[0; MOST_LANES]; N],
             legend_starts: [[0; MOST_LANES]; N],
             any: [0; N],
             open: [0; N],
@@ -40,16 +61,16 @@ impl<const N: usize> Asked<N> {
 
     /// Writes down where the numbers of a question's words are, and the legends in a large world.
     #[inline(always)]
-    pub(super) fn ask<V: Vector>(
+    pub(super) fn ask(
         &mut self,
         question: usize,
-        places: V,
+        places: [u32; MOST_LANES],
         legend_starts: Option<&[u32; MOST_LANES]>,
     ) {
         if let Some(starts) = legend_starts {
             self.legend_starts[question] = *starts;
         }
-        self.places[question] = places.places();
+        self.places[question] = places;
     }
 
     /// Has a question's numbers fetched. Those of all robots together take as long to come as those
@@ -62,13 +83,15 @@ impl<const N: usize> Asked<N> {
     }
 
     /// Writes down the words of all questions; returns the questions by how many names their longest word
-    /// has. They go by car, as many for each; those of a car without a lane in `live` are not asked.
+    /// has. They go by car, as many for each; those of a car without a lane in `live` are not asked. Where words
+    /// mostly are short, it saves time to leave out their high halves.
     #[inline(always)]
     pub(super) fn answer<V: Vector>(
         &mut self,
         numbers: &[AtomicU16],
         words: AllWords<'_>,
         live: &[u32],
+        words_are_long: bool,
     ) -> ByNames {
         let mut by_names = [0; NAMES + 1];
         for question in 0..N {
@@ -76,35 +99,77 @@ impl<const N: usize> Asked<N> {
                 self.any[question] = 0;
                 continue;
             }
-            let (places, slots) = (&self.places[question], &mut self.words[question]);
-            let mut any = 0;
-            for lane in 0..V::WIDTH {
-                let word = words.of(&numbers[places[lane] as usize]);
-                slots[lane] = word;
-                any |= word;
+            if words_are_long {
+                self.answer_whole::<V>(question, numbers, words);
+            } else {
+                self.answer_half::<V>(question, numbers, words);
             }
-            self.any[question] = any;
-            by_names[longest(any)] |= 1 << question;
+            by_names[self.longest(question)] |= 1 << question;
         }
         by_names
     }
 
-    /// The words of one question.
+    /// Writes down the low halves of one question's words, and all of them if that is not enough.
     #[inline(always)]
-    pub(super) fn words(&self, question: usize) -> &[Word; MOST_LANES] {
-        &self.words[question]
+    fn answer_half<V: Vector>(
+        &mut self,
+        question: usize,
+        numbers: &[AtomicU16],
+        words: AllWords<'_>,
+    ) {
+        let (places, halves) = (&self.places[question], &mut self.low[question]);
+        let mut any = 0;
+        for lane in 0..V::WIDTH {
+            let word = words.of(&numbers[places[lane] as usize]);
+            halves[lane] = word as u32;
+            any |= word;
+        }
+        self.any[question] = any;
+        if any & IN_HIGH != 0 {
+            // All of them again: others may have become known meanwhile.
+            self.answer_whole::<V>(question, numbers, words);
+        }
     }
 
-    /// Where the legends to one question's words start, in a large world.
+    /// Writes down one question's words.
     #[inline(always)]
-    pub(super) fn legend_starts(&self, question: usize) -> &[u32; MOST_LANES] {
-        &self.legend_starts[question]
+    fn answer_whole<V: Vector>(
+        &mut self,
+        question: usize,
+        numbers: &[AtomicU16],
+        words: AllWords<'_>,
+    ) {
+        let mut any = 0;
+        for lane in 0..V::WIDTH {
+            let word = words.of(&numbers[self.places[question][lane] as usize]);
+            self.low[question][lane] = word as u32;
+            self.high[question][lane] = (word >> u32::BITS) as u32;
+            any |= word;
+        }
+        self.any[question] = any;
+    }
+
+    /// How many names the longest word of one question has.
+    #[inline(always)]
+    pub(super) fn longest(&self, question: usize) -> usize {
+        longest(self.any[question])
+    }
+
+    /// The names of one question in a round, the first of each word in round 0.
+    #[inline(always)]
+    pub(super) fn names(&self, question: usize, round: usize) -> Names<'_> {
+        let halves = if round < IN_HALF { &self.low } else { &self.high };
+        let legend_starts = &self.legend_starts[question];
+        Names { halves: &halves[question], byte: round % IN_HALF, legend_starts }
     }
 
     /// Lanes whose word does not say everything, as bits.
     #[inline(always)]
     pub(super) fn unknown<V: Vector>(&self, question: usize) -> u32 {
-        if self.any[question] & UNKNOWN == 0 { 0 } else { self.with::<V>(question, UNKNOWN) }
+        if self.any[question] & UNKNOWN == 0 {
+            return 0;
+        }
+        V::lanes_with(&self.high[question], (UNKNOWN >> u32::BITS) as u32)
     }
 
     /// Writes down in which lanes a question may be left open, of which these are doubtful; returns whether
@@ -118,8 +183,23 @@ impl<const N: usize> Asked<N> {
     /// Closes a question where nobody in `live` asks, and where its word says everything and does not rely on
     /// walls that meet.
     #[inline(never)]
-    pub(super) fn close<V: Vector>(&mut self, question: usize, live: u32) {
-        self.open[question] &= live & self.with::<V>(question, UNKNOWN | JOINT);
+    pub(super) fn close(
+        &mut self,
+        question: usize,
+        numbers: &[AtomicU16],
+        words: AllWords<'_>,
+        live: u32,
+    ) {
+        let has_high = self.any[question] & IN_HIGH != 0;
+        let mut open = 0;
+        for lane in ones(self.open[question] & live) {
+            let flags = match has_high {
+                true => Word::from(self.high[question][lane]) << u32::BITS,
+                false => words.of(&numbers[self.places[question][lane] as usize]),
+            };
+            open |= u32::from(flags & (UNKNOWN | JOINT) != 0) << lane;
+        }
+        self.open[question] = open;
     }
 
     /// In which lanes a question is open, as bits, if it was left open since it was asked.
@@ -134,13 +214,10 @@ impl<const N: usize> Asked<N> {
         &self.places[question]
     }
 
-    #[inline(never)]
-    fn with<V: Vector>(&self, question: usize, flags: Word) -> u32 {
-        let mut lanes = 0;
-        for (lane, word) in self.words[question][..V::WIDTH].iter().enumerate() {
-            lanes |= u32::from(*word & flags != 0) << lane;
-        }
-        lanes
+    /// Where the legends to one question's words start, in a large world.
+    #[inline(always)]
+    pub(super) fn legend_starts(&self, question: usize) -> &[u32; MOST_LANES] {
+        &self.legend_starts[question]
     }
 }
 
@@ -150,24 +227,23 @@ fn longest(any: Word) -> usize {
     (any & NAMED).checked_ilog2().map_or(0, |last| (last / NAME) as usize + 1)
 }
 
-/// Rows of a large world, of what each lane's word names in a round, as its legend says.
+/// Rows of a large world, of each lane's name, as its legend says.
 #[derive(Clone, Copy)]
 pub(super) struct ByPlace<'a> {
     /// By place, after one that nothing meets.
     pub(super) table: &'a [Row],
     pub(super) meanings: &'a Meanings,
-    pub(super) words: &'a [Word; MOST_LANES],
-    pub(super) legend_starts: &'a [u32; MOST_LANES],
-    pub(super) round: usize,
+    pub(super) names: Names<'a>,
 }
 
 impl RowOfLane for ByPlace<'_> {
     #[inline(always)]
     fn row(&self, lane: usize) -> &Row {
+        let Names { halves, byte, legend_starts } = self.names;
         // Little-endian, as controller-core demands.
-        let names: &[u8] = bytemuck::must_cast_slice(self.words);
-        let name = names[lane * size_of::<Word>() + self.round];
-        &self.table[self.meanings.at(self.legend_starts[lane], name)]
+        let names: &[u8] = bytemuck::must_cast_slice(halves);
+        let name = names[lane * size_of::<u32>() + byte];
+        &self.table[self.meanings.at(legend_starts[lane], name)]
     }
 }
 

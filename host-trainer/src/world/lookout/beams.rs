@@ -72,6 +72,25 @@ impl<V: Vector> Met<V> {
         Self { near, ..Self::nothing() }
     }
 
+    /// What else these beams have met, as well.
+    #[inline(always)]
+    pub(super) fn and(&mut self, other: &Self) {
+        self.near = other.near.min(self.near);
+        self.past = other.past.min(self.past);
+    }
+
+    /// As two numbers of each beam.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> [V; 2] {
+        [self.near, self.past]
+    }
+
+    /// Of such numbers.
+    #[inline(always)]
+    pub(super) fn of([near, past]: [V; 2]) -> Self {
+        Self { near, past }
+    }
+
     /// Tests a wall for each beam.
     ///
     /// The numbers are those of [`Ray::to_segment`], operation by operation. Only the tests differ:

@@ -1,13 +1,15 @@
 //! The car's beams, ready to be turned by its heading.
 
 use super::cell::BINS;
-use super::grid::{Turned, parts_of_turn};
-use crate::vector::Vector;
+use super::grid::parts_of_turn;
 use controller_core::geometry::Ray;
 use controller_core::lane::Lane;
 use controller_core::motion::Pose;
 use controller_core::observation::{BEAMS, BeamMount};
 use controller_core::trig::sin_cos;
+
+/// Bins that are no farther apart lie in one line of the cache, or in two that follow each other.
+const BINS_OF_LINE: f32 = 31.0;
 
 /// The beams of a car, and how far they reach.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,18 +27,28 @@ struct Beam {
     sin: f32,
     /// Its angle in bins.
     bins: f32,
+    /// Whether what it asks for is fetched: what the beams between those ask for lies in the same lines of the cache.
+    is_fetched: bool,
 }
 
 impl Fan {
     /// Beams at these mounts that reach `range` metres.
     pub fn new(mounts: &[BeamMount; BEAMS], range: f32) -> Self {
-        let beams = mounts.map(|mount| {
+        let mut beams = mounts.map(|mount| {
             let (sin, cos) = sin_cos(mount.angle);
-            Beam { mount, cos, sin, bins: parts_of_turn(mount.angle, BINS) }
+            Beam { mount, cos, sin, bins: parts_of_turn(mount.angle, BINS), is_fetched: false }
         });
         let starts_with_first =
             |mount: &BeamMount| (mount.x, mount.y) == (mounts[0].x, mounts[0].y);
-        Self { beams, range, has_one_origin: mounts.iter().all(starts_with_first) }
+        let has_one_origin = mounts.iter().all(starts_with_first);
+        let mut fetched = 0;
+        for beam in 0..BEAMS {
+            let next = beams.get(beam + 1).map(|next| (next.bins - beams[fetched].bins).abs());
+            if !has_one_origin || beam == 0 || next.is_none_or(|apart| apart > BINS_OF_LINE) {
+                (beams[beam].is_fetched, fetched) = (true, beam);
+            }
+        }
+        Self { beams, range, has_one_origin }
     }
 
     /// How far the beams reach, metres.
@@ -50,10 +62,16 @@ impl Fan {
         self.has_one_origin
     }
 
-    /// The bins that one beam of cars with these headings lies in.
+    /// How far to the left one beam of a car lies, in bins.
     #[inline(always)]
-    pub(super) fn bins<V: Vector>(&self, beam: usize, heading: Turned<V, BINS>) -> V {
-        heading.part_beside(self.beams[beam].bins)
+    pub(super) fn bins(&self, beam: usize) -> f32 {
+        self.beams[beam].bins
+    }
+
+    /// Whether to fetch what this beam asks for.
+    #[inline(always)]
+    pub(super) fn is_fetched(&self, beam: usize) -> bool {
+        self.beams[beam].is_fetched
     }
 
     /// The beams of cars at these poses, rightmost first.
@@ -87,5 +105,28 @@ impl Beam {
     fn direction<L: Lane>(&self, pose: &Pose<L>) -> (L, L) {
         let (cos, sin) = (L::from(self.cos), L::from(self.sin));
         (pose.cos * cos - pose.sin * sin, pose.sin * cos + pose.cos * sin)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fetched(degrees: [f32; BEAMS], x: f32) -> [bool; BEAMS] {
+        let mut mounts =
+            degrees.map(|angle| BeamMount { x: 0.0, y: 0.0, angle: angle.to_radians() });
+        mounts[2].x = x;
+        let fan = Fan::new(&mounts, 10.0);
+        std::array::from_fn(|beam| fan.is_fetched(beam))
+    }
+
+    #[test]
+    fn of_beams_that_ask_in_the_same_lines_of_the_cache_the_outer_ones_are_fetched() {
+        let outer = [true, false, false, false, true];
+        assert_eq!(fetched([-30.0, -15.0, 0.0, 15.0, 30.0], 0.0), outer);
+        assert_eq!(fetched([-90.0, -45.0, 0.0, 45.0, 90.0], 0.0), [true, true, true, true, true]);
+        assert_eq!(fetched([-80.0, -40.0, 0.0, 40.0, 80.0], 0.0), [true, false, true, false, true]);
+        assert_eq!(fetched([0.0; BEAMS], 0.0), outer);
+        assert_eq!(fetched([-30.0, -15.0, 0.0, 15.0, 30.0], 0.1), [true; BEAMS], "other cells");
     }
 }

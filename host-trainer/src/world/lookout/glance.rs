@@ -1,6 +1,8 @@
 //! What many cars see at once, and what is written down until they do.
 
 use super::asked::Asked;
+use super::beams::Met;
+use super::later::Later;
 use crate::vector::Vector;
 use controller_core::geometry::Ray;
 use controller_core::observation::BEAMS;
@@ -16,6 +18,10 @@ pub struct Glance<V, const N: usize, const Q: usize> {
     pub distances: [[V; BEAMS]; N],
     /// What had to be tested.
     pub(super) asked: Asked<Q>,
+    /// What beams have met first, question by question.
+    pub(super) first: [Met<V>; Q],
+    /// Those that may meet more.
+    pub(super) later: Later<V, Q>,
 }
 
 impl<V: Vector, const N: usize, const Q: usize> Default for Glance<V, N, Q> {
@@ -25,6 +31,12 @@ impl<V: Vector, const N: usize, const Q: usize> Default for Glance<V, N, Q> {
         const { assert!(Q == N * BEAMS) };
         let zero = V::from(0.0);
         let ray = Ray { origin: (zero, zero), direction: (zero, zero) };
-        Self { rays: [[ray; BEAMS]; N], distances: [[zero; BEAMS]; N], asked: Asked::new() }
+        Self {
+            rays: [[ray; BEAMS]; N],
+            distances: [[zero; BEAMS]; N],
+            asked: Asked::new(),
+            first: [Met::nothing(); Q],
+            later: Later::new(),
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Which cell a point lies in, and which of some equal parts of a turn an angle.
 
-use crate::vector::Vector;
+use crate::vector::{MOST_LANES, Vector};
 use crate::world::shape::{Point, Rect};
 use std::f32::consts::TAU;
 
@@ -186,19 +186,28 @@ impl<V: Vector, const PARTS: u32> Turned<V, PARTS> {
         Self(V::select(is_within, rest, V::from(0.0)))
     }
 
-    /// Which part each angle lies in. Part 0 has angle 0 in its middle.
+    /// The place of each angle's part, where places of all parts follow a base. Part 0 has angle 0 in its middle.
     #[inline(always)]
-    pub(super) fn part(self) -> V {
-        self.part_beside(0.0)
+    pub(super) fn places(self, bases: &[u32; MOST_LANES]) -> [u32; MOST_LANES] {
+        self.places_beside(0.0, bases)
     }
 
     /// The same of angles that are so many [parts](parts_of_turn) to the left.
     #[inline(always)]
-    pub(super) fn part_beside(self, parts: f32) -> V {
-        let (all, zero) = (V::from(PARTS as f32), V::from(0.0));
-        let part = nearest_integer(self.0 + V::from(parts));
-        let part = V::select(part.lt(zero), part + all, part);
-        V::select(part.lt(all), part, zero)
+    pub(super) fn places_beside(self, parts: f32, bases: &[u32; MOST_LANES]) -> [u32; MOST_LANES] {
+        (self.0 + V::from(parts)).places_around(PARTS, bases)
+    }
+}
+
+impl<const PARTS: u32> Turned<f32, PARTS> {
+    /// Which part the angle lies in.
+    pub(super) fn part(self) -> u32 {
+        self.part_beside(0.0)
+    }
+
+    /// The same of one that is so many [parts](parts_of_turn) to the left.
+    pub(super) fn part_beside(self, parts: f32) -> u32 {
+        self.places_beside(parts, &[0; MOST_LANES])[0]
     }
 }
 
@@ -228,7 +237,7 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    /// Every direction that [`Turned::part_beside`] puts in this part, and a little more.
+    /// Every direction that [`Turned::places_beside`] puts in this part, and a little more.
     pub(super) fn new(part: usize, parts: u32) -> Self {
         let whole = std::f64::consts::TAU;
         let middle = part as f64 * whole / f64::from(parts);
@@ -257,14 +266,14 @@ mod tests {
 
     const PARTS: u32 = 128;
 
-    fn part(heading: f32, mount: f32) -> f32 {
+    fn part(heading: f32, mount: f32) -> u32 {
         Turned::<f32, PARTS>::by(heading).part_beside(parts_of_turn(mount, PARTS))
     }
 
     /// By how much a direction lies outside of its part, radians; negative inside.
     fn outside(heading: f32, mount: f32) -> f64 {
         let part = part(heading, mount);
-        assert!((0.0..PARTS as f32).contains(&part), "{part} at {heading} and {mount}");
+        assert!(part < PARTS, "{part} at {heading} and {mount}");
         let Arc { middle, half, .. } = Arc::new(part as usize, PARTS);
         let turns = (f64::from(heading) + f64::from(mount) - middle) / TURN;
         (turns - libm::round(turns)).abs() * TURN - (half - TURN_MARGIN)
@@ -293,7 +302,7 @@ mod tests {
     #[test]
     fn what_is_no_angle_lies_in_some_part() {
         for heading in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX] {
-            assert!((0.0..PARTS as f32).contains(&part(heading, 1.0)), "{heading}");
+            assert!(part(heading, 1.0) < PARTS, "{heading}");
         }
     }
 }

@@ -53,9 +53,7 @@ impl Meanings {
     /// What a name means by the legend that [starts](Self::start) here: a place in the world plus 1.
     #[inline(always)]
     pub(super) fn at(&self, start: u32, name: u8) -> usize {
-        // No index is farther out; said so, it needs no test.
-        let index = (start | u32::from(name)) as usize & ((MOST_LEGENDS << NAME) - 1);
-        self.0[index].load(Ordering::Relaxed) as usize
+        self.meaning(start, name).load(Ordering::Relaxed) as usize
     }
 
     /// Where a legend starts.
@@ -65,8 +63,13 @@ impl Meanings {
     }
 
     fn mean(&self, legend: u32, name: u8, place: u32) {
-        let index = Self::start(legend) | u32::from(name);
-        self.0[index as usize].store(place + 1, Ordering::Relaxed);
+        self.meaning(Self::start(legend), name).store(place + 1, Ordering::Relaxed);
+    }
+
+    #[inline(always)]
+    fn meaning(&self, start: u32, name: u8) -> &AtomicU32 {
+        // No index is farther out; said so, it needs no test.
+        &self.0[(start | u32::from(name)) as usize & ((MOST_LEGENDS << NAME) - 1)]
     }
 }
 
@@ -84,11 +87,6 @@ impl Legends {
     #[inline(always)]
     pub(super) fn meanings(&self) -> &Meanings {
         &self.meanings
-    }
-
-    /// The place in the world plus 1 that a name means.
-    pub(super) fn meaning(&self, legend: u32, name: u8) -> usize {
-        self.meanings.at(Meanings::start(legend), name)
     }
 
     /// The legend for a cell of this tile, which lies in this rectangle; a new one in a crowd. None

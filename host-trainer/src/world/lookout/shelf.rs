@@ -4,10 +4,10 @@
 //! large one a legend says what it means, and cells get a shelf when a car turns up. Memory is asked
 //! for at once, but what no car visits is never touched, and so takes none.
 
-use super::asked::{Asked, ByNames, ByPlace};
+use super::asked::{Asked, ByNames, ByPlace, Names};
 use super::beams::{self, Row};
 use super::cell::{BINS, SECTORS, Sight, Surroundings};
-use super::grid::Grid;
+use super::grid::{Grid, Turned};
 use super::kept::Kept;
 use super::legends::{Legends, MOST_NAMES, Meanings, Naming};
 use super::rounding::Limits;
@@ -51,21 +51,14 @@ struct Rows {
 }
 
 impl Rows {
-    /// The rows of each word's name in this round.
+    /// The rows of each lane's name.
     #[inline(always)]
-    fn rows<V: Vector, const N: usize>(
-        &self,
-        large: Option<&Large>,
-        asked: &Asked<N>,
-        question: usize,
-        round: usize,
-    ) -> [V; 4] {
-        let words = asked.words(question);
+    fn rows<V: Vector>(&self, large: Option<&Large>, names: Names<'_>) -> [V; 4] {
+        let Names { halves, byte, .. } = names;
         match large {
-            None => V::named(ByName { table: &self.named, words, byte: round }),
+            None => V::named(ByName { table: &self.named, names: halves, byte }),
             Some(Large { legends, .. }) => {
-                let (meanings, legend_starts) = (legends.meanings(), asked.legend_starts(question));
-                V::rows(ByPlace { table: &self.all, meanings, words, legend_starts, round })
+                V::rows(ByPlace { table: &self.all, meanings: legends.meanings(), names })
             }
         }
     }
@@ -104,8 +97,8 @@ impl Spot {
 
 /// Many cells' shelves, and their legends in a large world.
 #[derive(Clone, Copy)]
-pub(super) struct Shelves<V> {
-    shelves: V,
+pub(super) struct Shelves {
+    shelves: [u32; MOST_LANES],
     legend_starts: [u32; MOST_LANES],
 }
 
@@ -223,16 +216,17 @@ impl Shelf {
         self.has_discs
     }
 
-    /// Asks what beams in these bins can meet.
+    /// Asks what beams can meet that lie so many bins to the left of these headings.
     #[inline(always)]
     pub(super) fn ask_seen<V: Vector, const N: usize>(
         &self,
         asked: &mut Asked<N>,
         question: usize,
-        shelves: &Shelves<V>,
-        bins: V,
+        shelves: &Shelves,
+        (heading, bins): (Turned<V, BINS>, f32),
     ) {
-        self.ask(asked, question, shelves, bins, BINS);
+        let places = heading.places_beside(bins, &shelves.shelves);
+        asked.ask(question, places, self.legend_starts(shelves));
     }
 
     /// Has what the question asks for fetched.
@@ -241,30 +235,23 @@ impl Shelf {
         asked.fetch::<V>(question, &self.seen);
     }
 
-    /// Asks what bodies in these sectors can touch, and has it fetched.
+    /// Asks what bodies with these headings can touch, and has it fetched.
     #[inline(always)]
     pub(super) fn ask_near<V: Vector, const N: usize>(
         &self,
         asked: &mut Asked<N>,
         question: usize,
-        shelves: &Shelves<V>,
-        sectors: V,
+        shelves: &Shelves,
+        heading: Turned<V, SECTORS>,
     ) {
-        self.ask(asked, question, shelves, sectors, SECTORS);
+        let places = heading.places(&shelves.shelves);
+        asked.ask(question, places, self.legend_starts(shelves));
         asked.fetch::<V>(question, &self.near);
     }
 
     #[inline(always)]
-    fn ask<V: Vector, const N: usize>(
-        &self,
-        asked: &mut Asked<N>,
-        question: usize,
-        Shelves { shelves, legend_starts }: &Shelves<V>,
-        part: V,
-        parts: u32,
-    ) {
-        let places = *shelves * V::from(parts as f32) + part;
-        asked.ask(question, places, self.large.as_ref().map(|_| legend_starts));
+    fn legend_starts<'a>(&self, shelves: &'a Shelves) -> Option<&'a [u32; MOST_LANES]> {
+        self.large.as_ref().map(|_| &shelves.legend_starts)
     }
 
     /// Answers what beams can meet, for cars with any lane in `live`.
@@ -274,7 +261,18 @@ impl Shelf {
         asked: &mut Asked<N>,
         live: &[u32],
     ) -> ByNames {
-        asked.answer::<V>(&self.seen, self.words.all(), live)
+        asked.answer::<V>(&self.seen, self.words.all(), live, self.is_large())
+    }
+
+    /// Closes what beams ask where nobody in `live` does, and where an answer is sure.
+    #[inline(always)]
+    pub(super) fn close_seen<const N: usize>(
+        &self,
+        asked: &mut Asked<N>,
+        question: usize,
+        live: u32,
+    ) {
+        asked.close(question, &self.seen, self.words.all(), live);
     }
 
     /// Answers what bodies can touch, likewise.
@@ -284,7 +282,7 @@ impl Shelf {
         asked: &mut Asked<N>,
         live: &[u32],
     ) -> ByNames {
-        asked.answer::<V>(&self.near, self.words.all(), live)
+        asked.answer::<V>(&self.near, self.words.all(), live, false)
     }
 
     /// Has fetched what says where these cells' shelves are.
@@ -299,41 +297,30 @@ impl Shelf {
 
     /// The shelves of these cells.
     #[inline(always)]
-    pub(super) fn shelves<V: Vector>(&self, cells: V) -> Shelves<V> {
-        let mut all = Shelves { shelves: cells, legend_starts: [0; MOST_LANES] };
+    pub(super) fn shelves<V: Vector>(&self, cells: V) -> Shelves {
+        let mut all = Shelves { shelves: cells.places(), legend_starts: [0; MOST_LANES] };
         if let Some(large) = &self.large {
-            let cells = cells.places();
-            for (lane, shelf) in all.shelves.lanes_mut().iter_mut().enumerate() {
-                let spot = Spot::of(large.spots[cells[lane] as usize].load(Ordering::Relaxed));
-                *shelf = spot.shelf as f32;
-                all.legend_starts[lane] = Meanings::start(spot.legend);
+            let lanes = all.shelves[..V::WIDTH].iter_mut().zip(&mut all.legend_starts);
+            for (shelf, start) in lanes {
+                let spot = Spot::of(large.spots[*shelf as usize].load(Ordering::Relaxed));
+                *shelf = spot.shelf;
+                *start = Meanings::start(spot.legend);
             }
         }
         all
     }
 
-    /// The obstacles of each word's name in this round, as beams meet them. Whether the world
-    /// [is large](Self::is_large), the caller says.
+    /// The obstacles of each lane's name, as beams meet them. Whether the world [is large](Self::is_large), the
+    /// caller says.
     #[inline(always)]
-    pub(super) fn edges<V: Vector, const N: usize, const IS_LARGE: bool>(
-        &self,
-        asked: &Asked<N>,
-        question: usize,
-        round: usize,
-    ) -> [V; 4] {
-        let large = if IS_LARGE { self.large.as_ref() } else { None };
-        self.edges.rows(large, asked, question, round)
+    pub(super) fn edges<V: Vector, const IS_LARGE: bool>(&self, names: Names<'_>) -> [V; 4] {
+        self.edges.rows(if IS_LARGE { self.large.as_ref() } else { None }, names)
     }
 
     /// The same as bodies meet them.
     #[inline(always)]
-    pub(super) fn faces<V: Vector, const N: usize>(
-        &self,
-        asked: &Asked<N>,
-        question: usize,
-        round: usize,
-    ) -> [V; 4] {
-        self.faces.rows(self.large.as_ref(), asked, question, round)
+    pub(super) fn faces<V: Vector>(&self, names: Names<'_>) -> [V; 4] {
+        self.faces.rows(self.large.as_ref(), names)
     }
 
     /// Has the [`Whole`] of a question fetched wherever it is open.
@@ -363,9 +350,8 @@ impl Shelf {
     fn each_of_whole_at(&self, place: u32, start: u32, f: impl FnMut(&Row)) -> Option<f32> {
         let large = self.large.as_ref()?;
         let whole = Whole::in_place(&large.wholes[place as usize])?;
-        let (meanings, word) = (large.legends.meanings(), large.whole_words.all());
-        let names = named(word.of_number(whole.number()));
-        names.map(|name| &self.edges.all[meanings.at(start, name)]).for_each(f);
+        let word = large.whole_words.all().of_number(whole.number());
+        self.each_named(&self.edges, start, word, f);
         Some(whole.beyond(self.surroundings.range))
     }
 
@@ -383,11 +369,11 @@ impl Shelf {
         let spot @ Spot { shelf, legend } = self.spot(grid, obstacles, cell)?;
         let lists = self.lists[shelf as usize]
             .get_or_init(|| Box::new(self.look_around(grid, obstacles, cell, spot)));
-        if let Question::Seen(bin) = question {
-            let (place, start) = (shelf * BINS + bin, Meanings::start(legend));
-            if let Some(beyond) = self.each_of_whole_at(place, start, &mut f) {
-                return Some(Sure::Within(beyond));
-            }
+        let start = Meanings::start(legend);
+        if let Question::Seen(bin) = question
+            && let Some(beyond) = self.each_of_whole_at(shelf * BINS + bin, start, &mut f)
+        {
+            return Some(Sure::Within(beyond));
         }
         let (kept, part, numbers, table, at) = match question {
             Question::Seen(bin) => (&lists.seen, bin, &self.seen, &self.edges, shelf * BINS + bin),
@@ -403,21 +389,17 @@ impl Shelf {
         if word & UNKNOWN != 0 {
             return None;
         }
-        self.each_named(table, legend, word, f);
+        self.each_named(table, start, word, f);
         Some(if word & JOINT != 0 { Sure::UnlessDoubtful } else { Sure::Within(f32::INFINITY) })
     }
 
-    /// Calls `f` with the obstacle of every name in a word.
-    fn each_named(&self, table: &Rows, legend: u32, word: Word, f: impl FnMut(&Row)) {
-        named(word).map(|name| &table.all[self.row(legend, name)]).for_each(f);
-    }
-
-    /// Where in the tables a name's obstacle is.
-    fn row(&self, legend: u32, name: u8) -> usize {
-        match &self.large {
+    /// Calls `f` with the obstacle of every name in a word, by the legend that starts there.
+    fn each_named(&self, table: &Rows, start: u32, word: Word, f: impl FnMut(&Row)) {
+        let row = |name: u8| match &self.large {
             None => usize::from(name),
-            Some(large) => large.legends.meaning(legend, name),
-        }
+            Some(large) => large.legends.meanings().at(start, name),
+        };
+        named(word).map(|name| &table.all[row(name)]).for_each(f);
     }
 
     /// The shelf and legend of a cell; takes one if it has none yet.
