@@ -46,6 +46,9 @@ use tape::Tapes;
 /// are as many as the pairs of the paper's training.
 pub const SLOTS: usize = 5;
 
+/// Individuals from which on it pays to keep what is the same for all who drive a pair.
+const ENOUGH_INDIVIDUALS: usize = 4;
+
 /// What is to be driven: every individual drives every pair.
 pub struct Fleet<'a> {
     /// World, car and network.

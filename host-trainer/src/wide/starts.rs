@@ -1,14 +1,11 @@
 //! Where drives begin, worked out once for all individuals that drive a pair.
 
-use super::Fleet;
+use super::{ENOUGH_INDIVIDUALS, Fleet};
 use crate::car::Exemplar;
 use crate::episode::start_pose;
 use crate::seed::Stream;
 use controller_core::motion::Pose;
 use std::sync::OnceLock;
-
-/// Individuals from which on it pays to keep what has been worked out.
-const ENOUGH_INDIVIDUALS: usize = 4;
 
 /// The start of each of a fleet's pairs, as far as anybody has driven it; or none, and each drive works out its own.
 #[derive(Debug)]

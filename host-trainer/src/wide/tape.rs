@@ -4,16 +4,13 @@
 //! draws as many, whatever it sees. So what its sensors misread is kept on a *tape* of the pair,
 //! which the first car to get so far extends and every other reads.
 
-use super::Fleet;
+use super::{ENOUGH_INDIVIDUALS, Fleet};
 use crate::car::{CarModel, Misreading};
 use crate::seed::Stream;
 use crate::vector::ones;
 use controller_core::observation::BEAMS;
 use std::slice::Iter;
 use std::sync::{Mutex, OnceLock, PoisonError};
-
-/// Individuals from which on tapes pay.
-const ENOUGH_INDIVIDUALS: usize = 4;
 
 /// Most bytes that a fleet's tapes may come to.
 const MOST_BYTES: usize = 256 << 20;
