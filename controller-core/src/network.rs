@@ -225,9 +225,10 @@ impl<'a, R: Recurrence, W: Copy + fmt::Debug, const I: usize, const H: usize, co
     }
 
     /// The same from the hidden outputs `before` the step to those after it, in places of their own: those of many
-    /// robots at once take long to copy.
+    /// robots at once take long to copy. If `APART` a layer's sums are all done before its first tanh: more neurons at a
+    /// time then fit the registers. No bit depends on that either.
     #[inline(always)]
-    pub fn step_between<const N: usize, L: Lane + From<W>>(
+    pub fn step_between<const N: usize, const APART: bool, L: Lane + From<W>>(
         &self,
         activation: impl Activation,
         before: &State<L, H>,
@@ -235,9 +236,9 @@ impl<'a, R: Recurrence, W: Copy + fmt::Debug, const I: usize, const H: usize, co
         input: &[L; I],
     ) -> [L; O] {
         let (memory, previous) = (self.first_memory, &before.first);
-        self.first.run_between::<N, R, L>(memory, activation, input, previous, first);
+        self.first.run_between::<N, APART, R, L>(memory, activation, input, previous, first);
         let (memory, previous) = (self.second_memory, &before.second);
-        self.second.run_between::<N, R, L>(memory, activation, first, previous, second);
+        self.second.run_between::<N, APART, R, L>(memory, activation, first, previous, second);
         let mut output = [L::from(0.0); O];
         self.output.run::<O, Feedforward, L>((), activation, second, &mut output);
         output
@@ -297,10 +298,14 @@ mod tests {
         let mut state = State::reset();
         core::array::from_fn(|step| {
             let input = core::array::from_fn(|index| ((step * 7 + index) * 31 % 53) as f32 / 52.0);
-            let mut after = State::reset();
-            let between = network.step_between::<N, f32>(Rational, &state, &mut after, &input);
+            let [mut after, mut apart] = [State::reset(); 2];
+            let between =
+                network.step_between::<N, false, f32>(Rational, &state, &mut after, &input);
+            let sums_first =
+                network.step_between::<N, true, f32>(Rational, &state, &mut apart, &input);
             let outputs = network.step_by::<N, f32>(Rational, &mut state, &input);
             assert_eq!((between, after), (outputs, state), "the same, in places of their own");
+            assert_eq!((sums_first, apart), (outputs, state), "the same, sums first");
             let mut values = state.first.iter().chain(&state.second).chain(&outputs);
             core::array::from_fn(|_| values.next().unwrap().to_bits())
         })
