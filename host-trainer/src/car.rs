@@ -117,7 +117,9 @@ impl<'a> SimulatedCar<'a> {
         let mut glance = Glance::<f32, 1, BEAMS>::default();
         self.lookout.look(self.model.fan(), &[self.pose], &[1], &mut glance);
         let Glance { rays: [rays], distances: [walls], .. } = glance;
-        std::array::from_fn(|beam| self.model.hit(walls[beam], rays[beam].to_disc(&self.target)))
+        std::array::from_fn(|beam| {
+            self.model.hit(walls[beam], rays.ray(beam).to_disc(&self.target))
+        })
     }
 }
 

@@ -21,7 +21,7 @@ use parry2d::utils::point_in_poly2d;
 use std::sync::Arc;
 
 pub use build::{MAX_OUTLINE, WorldError};
-pub use lookout::{Cells, Fan, Glance, Lookout, Survey};
+pub use lookout::{Cells, Fan, Glance, Lookout, Rays, Survey};
 pub use obstacles::Obstacles;
 
 /// Walls are lengthened by this much at both ends, metres, so that a beam aimed exactly at a

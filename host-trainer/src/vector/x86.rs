@@ -29,9 +29,13 @@ pub(super) struct Wide8(__m256);
 #[repr(transparent)]
 pub(super) struct Wide16(__m512);
 
-/// Whether this CPU has what [`Wide8`] needs.
+/// Whether this CPU has what [`Wide8`] needs: vectors, and bits of masks counted and found by one instruction.
 pub(super) fn has_avx2() -> bool {
-    is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi2")
+    is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("bmi2")
+        && is_x86_feature_detected!("lzcnt")
+        && is_x86_feature_detected!("popcnt")
 }
 
 /// Whether this CPU has what [`Wide16`] needs.
@@ -61,13 +65,13 @@ pub(super) fn run<K: Kernel>(instructions: Instructions, kernel: K) -> K::Output
 }
 
 #[inline(never)]
-#[target_feature(enable = "avx2,bmi2")]
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn with_avx2<P: Part<Wide8>>(part: P) -> P::Output {
     part.run()
 }
 
 #[inline(never)]
-#[target_feature(enable = "avx2,bmi2,avx512f,avx512dq,avx512vl,avx512bw")]
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512dq,avx512vl,avx512bw")]
 fn with_avx512<P: Part<Wide16>>(part: P) -> P::Output {
     part.run()
 }

@@ -6,9 +6,9 @@ use crate::car::{CarModel, Misreading};
 use crate::episode::Outcome;
 use crate::seed::Stream;
 use crate::vector::{Vector, ones};
-use crate::world::{World, distance};
+use crate::world::{Rays, World, distance};
 use controller_core::actuator::turned;
-use controller_core::geometry::{Disc, Ray};
+use controller_core::geometry::Disc;
 use controller_core::motion::Pose;
 use controller_core::observation::{BEAMS, Sight};
 
@@ -178,9 +178,9 @@ impl<'a, V: Vector> Cars<'a, V> {
 
     /// Finds out how far the target is along these beams.
     #[inline(always)]
-    pub(super) fn aim(&mut self, rays: &[Ray<V>; BEAMS]) {
-        for (distance, ray) in self.to_target.iter_mut().zip(rays) {
-            *distance = ray.to_disc(&self.target);
+    pub(super) fn aim(&mut self, rays: &Rays<V>) {
+        for (beam, distance) in self.to_target.iter_mut().enumerate() {
+            *distance = rays.ray(beam).to_disc(&self.target);
         }
     }
 

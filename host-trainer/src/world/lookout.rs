@@ -59,7 +59,7 @@ use rounding::MOST_ERROR;
 use shelf::{Question, Shelf, Sure};
 use std::sync::Arc;
 
-pub use fan::Fan;
+pub use fan::{Fan, Rays};
 pub use glance::Glance;
 pub use grid::Cells;
 pub use shelf::Survey;
@@ -126,15 +126,15 @@ impl Lookout {
         // loading it, then everything that is to be computed: so the CPU never waits for the one to begin the other.
         let mut cells = [V::from(0.0); N];
         for car in cars() {
-            cells[car] = self.grid.locate(rays[car][0].origin);
+            cells[car] = self.grid.locate(rays[car].ray(0).origin);
             self.shelf.fetch_shelves(cells[car]);
         }
         for car in cars() {
             let heading = Turned::by(poses[car].heading);
             let mut shelves = self.shelf.shelves(cells[car]);
-            for (beam, ray) in rays[car].iter().enumerate() {
+            for beam in 0..BEAMS {
                 if beam > 0 && !fan.has_one_origin() {
-                    shelves = self.shelf.shelves(self.grid.locate(ray.origin));
+                    shelves = self.shelf.shelves(self.grid.locate(rays[car].ray(beam).origin));
                 }
                 let direction = (heading, fan.bins(beam));
                 self.shelf.ask_seen(asked, car * BEAMS + beam, &shelves, direction);
@@ -159,7 +159,7 @@ impl Lookout {
             return;
         }
         let questions = self.shelf.answer_seen::<V, Q>(asked, live);
-        let (rays, distances) = (rays.as_flattened(), distances.as_flattened_mut());
+        let (rays, distances) = (&*rays, distances.as_flattened_mut());
         let test = Test { asked, rays, distances, first, later };
         // Four times the same code, so that nobody has to ask this for each obstacle.
         let open = match (self.shelf.is_large(), self.shelf.has_discs()) {
@@ -174,7 +174,7 @@ impl Lookout {
         }
         for question in ones(open) {
             let (car, beam) = (question / BEAMS, question % BEAMS);
-            let (ray, distance) = (&rays[question], &mut distances[question]);
+            let (ray, distance) = (&rays[car].ray(beam), &mut distances[question]);
             for lane in ones(asked.open(question)) {
                 let heading = poses[car].heading.lanes()[lane];
                 let ray = beams::in_lane(ray, lane);
@@ -216,10 +216,10 @@ impl Lookout {
         let mut open = 0;
         for (names, questions) in questions.into_iter().enumerate() {
             for question in ones(questions) {
-                let mut met = Met::nothing();
+                let (ray, mut met) = (rays[question / BEAMS].ray(question % BEAMS), Met::nothing());
                 for round in 0..names {
                     let names = asked.names(question, round);
-                    self.test::<V, IS_LARGE, HAS_DISCS>(&mut met, &rays[question], names);
+                    self.test::<V, IS_LARGE, HAS_DISCS>(&mut met, &ray, names);
                 }
                 open |= self.finish(asked, question, &met, distances);
             }
@@ -234,15 +234,16 @@ impl Lookout {
         &self,
         Test { asked, rays, distances, first, later }: Test<'_, V, Q>,
     ) -> u32 {
-        later.clear();
-        for (question, ray) in rays.iter().enumerate() {
+        let mut added = later.begin();
+        for (question, first) in first.iter_mut().enumerate() {
+            let ray = &rays[question / BEAMS].ray(question % BEAMS);
             let mut met = Met::nothing();
             let names = asked.longest(question);
             if names > 0 {
                 self.test::<V, false, HAS_DISCS>(&mut met, ray, asked.names(question, 0));
             }
             if names > 1 && names <= IN_HALF {
-                later.add(question, ray, asked.names(question, 1));
+                later.add(&mut added, question, ray, asked.names(question, 1));
             } else {
                 later.add_none(question);
                 for round in 1..names {
@@ -250,8 +251,9 @@ impl Lookout {
                     self.test::<V, false, HAS_DISCS>(&mut met, ray, names);
                 }
             }
-            first[question] = met;
+            *first = met;
         }
+        later.end(added);
         for vector in 0..later.vectors() {
             let (ray, mut met) = (later.ray(vector), Met::nothing());
             let mut round = 1;
@@ -452,7 +454,7 @@ impl Lookout {
 /// Beams that are being tested, and where it is written down.
 struct Test<'a, V, const Q: usize> {
     asked: &'a mut Asked<Q>,
-    rays: &'a [Ray<V>],
+    rays: &'a [Rays<V>],
     distances: &'a mut [V],
     first: &'a mut [Met<V>; Q],
     later: &'a mut Later<V, Q>,

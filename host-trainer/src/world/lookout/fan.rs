@@ -76,22 +76,47 @@ impl Fan {
 
     /// The beams of cars at these poses, rightmost first.
     pub fn rays<L: Lane>(&self, pose: &Pose<L>) -> [Ray<L>; BEAMS] {
-        let zero = (L::from(0.0), L::from(0.0));
-        let mut rays = [Ray { origin: zero, direction: zero }; BEAMS];
+        let mut rays = Rays::default();
         self.cast(pose, &mut rays);
-        rays
+        std::array::from_fn(|beam| rays.ray(beam))
     }
 
     /// The same, in place.
     #[inline(always)]
-    pub(super) fn cast<L: Lane>(&self, pose: &Pose<L>, rays: &mut [Ray<L>; BEAMS]) {
-        let mut origin = self.beams[0].origin(pose);
-        for (ray, beam) in rays.iter_mut().zip(&self.beams) {
-            if !self.has_one_origin {
-                origin = beam.origin(pose);
+    pub(super) fn cast<L: Lane>(&self, pose: &Pose<L>, rays: &mut Rays<L>) {
+        rays.has_one_origin = self.has_one_origin;
+        rays.origins[0] = self.beams[0].origin(pose);
+        for (beam, mounted) in self.beams.iter().enumerate() {
+            if beam > 0 && !self.has_one_origin {
+                rays.origins[beam] = mounted.origin(pose);
             }
-            *ray = Ray { origin, direction: beam.direction(pose) };
+            rays.directions[beam] = mounted.direction(pose);
         }
+    }
+}
+
+/// The beams of a car in each lane. Where all start at the same point, it is written down once: vectors take long to write.
+#[derive(Clone, Copy, Debug)]
+pub struct Rays<L> {
+    origins: [(L, L); BEAMS],
+    directions: [(L, L); BEAMS],
+    has_one_origin: bool,
+}
+
+impl<L: Lane> Default for Rays<L> {
+    #[inline(always)]
+    fn default() -> Self {
+        let zero = (L::from(0.0), L::from(0.0));
+        Self { origins: [zero; BEAMS], directions: [zero; BEAMS], has_one_origin: true }
+    }
+}
+
+impl<L: Lane> Rays<L> {
+    /// One beam, counted from the rightmost.
+    #[inline(always)]
+    pub fn ray(&self, beam: usize) -> Ray<L> {
+        let origin = self.origins[if self.has_one_origin { 0 } else { beam }];
+        Ray { origin, direction: self.directions[beam] }
     }
 }
 

@@ -17,6 +17,7 @@
 mod tile;
 
 use super::beams::{self, Met, NOTHING, Row};
+use super::fan::Rays;
 use super::grid::Grid;
 use crate::vector::{MOST_LANES, RowOfLane, Vector, ones};
 use crate::world::Obstacles;
@@ -134,7 +135,7 @@ impl Field {
     pub(super) fn distances<V: Vector, const N: usize>(
         &self,
         obstacles: &Obstacles,
-        rays: &[[Ray<V>; BEAMS]; N],
+        rays: &[Rays<V>; N],
         live: &[u32; N],
         distances: &mut [[V; BEAMS]; N],
     ) {
@@ -229,18 +230,16 @@ impl Field {
 
     /// How far each beam goes to the long walls alone.
     #[inline(always)]
-    fn long_ahead<V: Vector, const N: usize>(
-        &self,
-        rays: &[[Ray<V>; BEAMS]; N],
-    ) -> [[V; BEAMS]; N] {
+    fn long_ahead<V: Vector, const N: usize>(&self, rays: &[Rays<V>; N]) -> [[V; BEAMS]; N] {
         let mut ahead = [[V::from(f32::INFINITY); BEAMS]; N];
         for row in &self.long {
             let [x, y, ex, ey] = *row;
-            for car in 0..N {
-                for beam in 0..BEAMS {
-                    let mut met = Met::something(ahead[car][beam]);
-                    met.wall(&rays[car][beam], [V::from(x), V::from(y), V::from(ex), V::from(ey)]);
-                    ahead[car][beam] = met.near();
+            for (ahead, rays) in ahead.iter_mut().zip(rays) {
+                for (beam, ahead) in ahead.iter_mut().enumerate() {
+                    let mut met = Met::something(*ahead);
+                    let row = [V::from(x), V::from(y), V::from(ex), V::from(ey)];
+                    met.wall(&rays.ray(beam), row);
+                    *ahead = met.near();
                 }
             }
         }
@@ -324,17 +323,17 @@ impl Field {
     fn find_from_outside<V: Vector, const N: usize>(
         &self,
         obstacles: &Obstacles,
-        rays: &[[Ray<V>; BEAMS]; N],
+        rays: &[Rays<V>; N],
         live: &[u32; N],
         distances: &mut [[V; BEAMS]; N],
     ) {
         let cells = V::from(self.grid.cells() as f32);
         for car in 0..N {
-            for beam in 0..BEAMS {
-                let ray = &rays[car][beam];
+            for (beam, distance) in distances[car].iter_mut().enumerate() {
+                let ray = &rays[car].ray(beam);
                 let lost = V::bits(cells.le(self.grid.locate(ray.origin))) & live[car];
                 if lost != 0 {
-                    self.find(obstacles, ray, lost, &mut distances[car][beam]);
+                    self.find(obstacles, ray, lost, distance);
                 }
             }
         }
@@ -400,11 +399,11 @@ impl<V: Vector> Walk<V> {
         &mut self,
         lane: usize,
         beam: usize,
-        rays: &[[Ray<V>; BEAMS]; N],
+        rays: &[Rays<V>; N],
         begun: &[[V; BEAMS]; N],
     ) {
         let (vector, from) = (beam / V::WIDTH, beam % V::WIDTH);
-        let ray = &rays[vector / BEAMS][vector % BEAMS];
+        let ray = &rays[vector / BEAMS].ray(vector % BEAMS);
         let (dx, dy) = (ray.direction.0.lanes()[from], ray.direction.1.lanes()[from]);
         self.beam[lane] = beam;
         self.taken |= 1 << lane;

@@ -2,9 +2,9 @@
 
 use super::asked::Asked;
 use super::beams::Met;
+use super::fan::Rays;
 use super::later::Later;
 use crate::vector::Vector;
-use controller_core::geometry::Ray;
 use controller_core::observation::BEAMS;
 
 /// What cars see, `N` in each lane; `Q` is `N * BEAMS`.
@@ -13,7 +13,7 @@ use controller_core::observation::BEAMS;
 /// takes a while. What it holds of cars that were not live in the last [look](super::Lookout::look) means nothing.
 pub struct Glance<V, const N: usize, const Q: usize> {
     /// The beams of each car, rightmost first.
-    pub rays: [[Ray<V>; BEAMS]; N],
+    pub rays: [Rays<V>; N],
     /// How far they go, metres: the distance to the nearest obstacle, or infinity if there is none within range.
     pub distances: [[V; BEAMS]; N],
     /// What had to be tested.
@@ -30,9 +30,8 @@ impl<V: Vector, const N: usize, const Q: usize> Default for Glance<V, N, Q> {
     fn default() -> Self {
         const { assert!(Q == N * BEAMS) };
         let zero = V::from(0.0);
-        let ray = Ray { origin: (zero, zero), direction: (zero, zero) };
         Self {
-            rays: [[ray; BEAMS]; N],
+            rays: [Rays::default(); N],
             distances: [[zero; BEAMS]; N],
             asked: Asked::new(),
             first: [Met::nothing(); Q],

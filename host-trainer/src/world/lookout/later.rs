@@ -13,6 +13,9 @@ use controller_core::geometry::Ray;
 /// A word's half of each beam.
 type Halves<const Q: usize> = [[u32; MOST_LANES]; Q];
 
+/// How many beams have been added.
+pub(super) struct Added(usize);
+
 /// Beams of `Q` questions, in the order in which they were added.
 pub(super) struct Later<V, const Q: usize> {
     /// Origins and directions.
@@ -40,26 +43,33 @@ impl<V: Vector, const Q: usize> Later<V, Q> {
         }
     }
 
-    /// Forgets all.
+    /// None again; `count` is how many there are by now.
     #[inline(always)]
-    pub(super) fn clear(&mut self) {
-        self.count = 0;
+    pub(super) fn begin(&mut self) -> Added {
+        Added(0)
     }
 
     /// Adds those of a question's beams that may meet more than the first obstacle named. Every question is added, or
     /// [none of it](Self::add_none), once and in order: so there is always room.
     #[inline(always)]
-    pub(super) fn add(&mut self, question: usize, ray: &Ray<V>, Names { halves, .. }: Names<'_>) {
+    pub(super) fn add(
+        &mut self,
+        Added(count): &mut Added,
+        question: usize,
+        ray: &Ray<V>,
+        Names { halves, .. }: Names<'_>,
+    ) {
         let lanes = V::lanes_with(halves, u32::MAX << NAME);
         let Ray { origin, direction } = ray;
         let numbers = [origin.0, origin.1, direction.0, direction.1];
+        // It is no farther out; said so, writing needs no test.
+        let place = (*count).min((Q - 1) * V::WIDTH);
         for (all, number) in self.rays.iter_mut().zip(numbers) {
-            put(all, self.count, number.squeezed(lanes));
+            put(all, place, number.squeezed(lanes));
         }
-        let words = self.halves.as_flattened_mut();
-        put_words::<V>(words, self.count, halves, lanes);
+        put_words::<V>(self.halves.as_flattened_mut(), place, halves, lanes);
         self.lanes[question] = lanes;
-        self.count += lanes.count_ones() as usize;
+        *count += lanes.count_ones() as usize;
     }
 
     /// Adds none of a question's beams.
@@ -68,12 +78,16 @@ impl<V: Vector, const Q: usize> Later<V, Q> {
         self.lanes[question] = 0;
     }
 
-    /// How many vectors they fill. Lanes that are left over in the last have nothing to meet.
+    /// All questions are added.
     #[inline(always)]
-    pub(super) fn vectors(&mut self) -> usize {
-        let vectors = self.count.div_ceil(V::WIDTH);
-        self.halves.as_flattened_mut()[self.count..vectors * V::WIDTH].fill(0);
-        vectors
+    pub(super) fn end(&mut self, Added(count): Added) {
+        self.count = count;
+    }
+
+    /// How many vectors they fill.
+    #[inline(always)]
+    pub(super) fn vectors(&self) -> usize {
+        self.count.div_ceil(V::WIDTH)
     }
 
     /// The beams of one vector.
@@ -89,7 +103,11 @@ impl<V: Vector, const Q: usize> Later<V, Q> {
         let first = vector * V::WIDTH;
         let halves = self.halves.as_flattened()[first..].first_chunk();
         let halves = halves.expect("as many as the widest vector has lanes");
-        let is_named = round < IN_HALF && V::lanes_with(halves, 0xff << (NAME * round as u32)) != 0;
+        // Lanes that are left over in the last vector hold anything.
+        let used = u32::MAX.checked_shr(u32::BITS.saturating_sub((self.count - first) as u32));
+        let used = used.unwrap_or(0);
+        let is_named =
+            round < IN_HALF && V::lanes_with(halves, 0xff << (NAME * round as u32)) & used != 0;
         is_named.then_some(Names { halves, byte: round, legend_starts: &[0; MOST_LANES] })
     }
 
@@ -162,7 +180,7 @@ mod tests {
         fn run<V: Vector>(self) {
             let mut later = Later::<V, QUESTIONS>::new();
             for row in self {
-                later.clear();
+                let mut added = later.begin();
                 let mut expected = Vec::new();
                 for question in 0..QUESTIONS {
                     let halves = row.halves(question);
@@ -177,10 +195,11 @@ mod tests {
                     if lanes.is_empty() {
                         later.add_none(question);
                     } else {
-                        later.add(question, &ray, names);
+                        later.add(&mut added, question, &ray, names);
                     }
                     expected.extend(lanes.into_iter().map(|lane| (question, lane)));
                 }
+                later.end(added);
                 let vectors = later.vectors();
                 assert_eq!(vectors, expected.len().div_ceil(V::WIDTH));
                 for vector in 0..vectors {
