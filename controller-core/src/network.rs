@@ -225,10 +225,10 @@ impl<'a, R: Recurrence, W: Copy + fmt::Debug, const I: usize, const H: usize, co
     }
 
     /// The same from the hidden outputs `before` the step to those after it, in places of their own: those of many
-    /// robots at once take long to copy. If `APART` a layer's sums are all done before its first tanh: more neurons at a
+    /// robots at once take long to copy. If `SUMS_FIRST` a layer's sums are all done before its first tanh: more neurons at a
     /// time then fit the registers. No bit depends on that either.
     #[inline(always)]
-    pub fn step_between<const N: usize, const APART: bool, L: Lane + From<W>>(
+    pub fn step_between<const N: usize, const SUMS_FIRST: bool, L: Lane + From<W>>(
         &self,
         activation: impl Activation,
         before: &State<L, H>,
@@ -236,9 +236,9 @@ impl<'a, R: Recurrence, W: Copy + fmt::Debug, const I: usize, const H: usize, co
         input: &[L; I],
     ) -> [L; O] {
         let (memory, previous) = (self.first_memory, &before.first);
-        self.first.run_between::<N, APART, R, L>(memory, activation, input, previous, first);
+        self.first.run_between::<N, SUMS_FIRST, R, L>(memory, activation, input, previous, first);
         let (memory, previous) = (self.second_memory, &before.second);
-        self.second.run_between::<N, APART, R, L>(memory, activation, first, previous, second);
+        self.second.run_between::<N, SUMS_FIRST, R, L>(memory, activation, first, previous, second);
         let mut output = [L::from(0.0); O];
         self.output.run::<O, Feedforward, L>((), activation, second, &mut output);
         output

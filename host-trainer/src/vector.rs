@@ -222,9 +222,9 @@ pub enum Instructions {
     Scalar,
     /// What every 64-bit x86 has: 4 lanes.
     Sse2,
-    /// 8 lanes.
+    /// 8 lanes. Needs `bmi1`, `bmi2`, `lzcnt` and `popcnt` too, which a virtual machine may hide.
     Avx2,
-    /// 16 lanes.
+    /// 16 lanes. Needs what [`Self::Avx2`] does, and AVX-512 F, DQ, VL and BW.
     Avx512,
 }
 

@@ -1,7 +1,7 @@
 //! One layer: sums of weighted inputs, passed through the tanh.
 //!
-//! Neurons are worked on in groups, so that the sums of a group never leave the registers. A neuron's own order of
-//! additions is the same in a group of any size.
+//! Neurons are worked on in groups, so that the sums of a group stay in the registers until they are done. A neuron's own
+//! order of additions is the same in a group of any size.
 
 use super::Recurrence;
 use crate::activation::Activation;
@@ -47,13 +47,13 @@ impl<W: Copy + fmt::Debug, const IN: usize, const OUT: usize> Layer<'_, W, IN, O
         }
     }
 
-    /// The same with the previous outputs in another place, and if `APART` the sums of all neurons before the tanh of any:
+    /// The same with the previous outputs in another place, and if `SUMS_FIRST` the sums of all neurons before the tanh of any:
     /// then the tanh takes no registers from the sums. A function of its own: with it a board's step in place would take
     /// 2 % more instructions.
     #[inline(always)]
     pub(super) fn run_between<
         const N: usize,
-        const APART: bool,
+        const SUMS_FIRST: bool,
         R: Recurrence,
         L: Lane + From<W>,
     >(
@@ -69,22 +69,20 @@ impl<W: Copy + fmt::Debug, const IN: usize, const OUT: usize> Layer<'_, W, IN, O
         let mut first = 0;
         for (group, own) in groups.iter_mut().zip(own_of_groups) {
             *group = self.sums::<N, R, L>(first, memory, input, own, previous);
-            if !APART {
+            if !SUMS_FIRST {
                 activation.apply(group);
             }
             first += N;
         }
         for (output, own) in rest.iter_mut().zip(own_of_rest) {
             [*output] = self.sums::<1, R, L>(first, memory, input, &[*own], previous);
-            if !APART {
+            if !SUMS_FIRST {
                 activation.apply(core::array::from_mut(output));
             }
             first += 1;
         }
-        if APART {
-            for output in outputs {
-                activation.apply(core::array::from_mut(output));
-            }
+        if SUMS_FIRST {
+            activation.apply(outputs);
         }
     }
 

@@ -12,7 +12,7 @@ const ROUNDS: usize = 7;
 /// than AVX2 has registers for.
 const CHAINS: usize = 12;
 
-/// The same where a product and a sum wait for each other, together.
+/// Chains of a product and then a sum, which take twice as long: all registers of AVX2 but two for the constants.
 const MIXED_CHAINS: usize = 14;
 
 /// Vectors that are read one after the other without waiting.
@@ -110,13 +110,13 @@ impl Kernel for Measure {
                 CHAINS * V::WIDTH
             }
             Work::Mixed => {
-                let mut chains = [one; MIXED_CHAINS];
+                let mut mixed = [one; MIXED_CHAINS];
                 for _ in 0..self.rounds {
-                    for chain in &mut chains {
+                    for chain in &mut mixed {
                         *chain = *chain * one + zero;
                     }
                 }
-                black_box(chains);
+                black_box(mixed);
                 2 * MIXED_CHAINS * V::WIDTH
             }
             Work::Div => {

@@ -29,23 +29,30 @@ pub(super) struct Wide8(__m256);
 #[repr(transparent)]
 pub(super) struct Wide16(__m512);
 
-/// Whether this CPU has what [`Wide8`] needs: vectors, and bits of masks counted and found by one instruction.
-pub(super) fn has_avx2() -> bool {
-    is_x86_feature_detected!("avx2")
-        && is_x86_feature_detected!("bmi1")
-        && is_x86_feature_detected!("bmi2")
-        && is_x86_feature_detected!("lzcnt")
-        && is_x86_feature_detected!("popcnt")
+/// Whether this CPU has these features, and a function that is compiled for them: one list, so that they agree.
+macro_rules! compiled_for {
+    ($has:ident, $with:ident, $wide:ident, [$($feature:tt),*]) => {
+        #[doc = concat!("Whether this CPU has what [`", stringify!($wide), "`] needs.")]
+        pub(super) fn $has() -> bool {
+            $(is_x86_feature_detected!($feature))&&*
+        }
+
+        #[inline(never)]
+        #[target_feature($(enable = $feature),*)]
+        fn $with<P: Part<$wide>>(part: P) -> P::Output {
+            part.run()
+        }
+    };
 }
 
-/// Whether this CPU has what [`Wide16`] needs.
-pub(super) fn has_avx512() -> bool {
-    has_avx2()
-        && is_x86_feature_detected!("avx512f")
-        && is_x86_feature_detected!("avx512dq")
-        && is_x86_feature_detected!("avx512vl")
-        && is_x86_feature_detected!("avx512bw")
-}
+// Beside the vectors: bits of a mask counted and found by one instruction, which AVX2 does not promise.
+compiled_for!(has_avx2, with_avx2, Wide8, ["avx2", "bmi1", "bmi2", "lzcnt", "popcnt"]);
+compiled_for!(
+    has_avx512,
+    with_avx512,
+    Wide16,
+    ["avx2", "bmi1", "bmi2", "lzcnt", "popcnt", "avx512f", "avx512dq", "avx512vl", "avx512bw"]
+);
 
 /// Fetches what lies here into the first cache.
 #[inline(always)]
@@ -62,18 +69,6 @@ pub(super) fn run<K: Kernel>(instructions: Instructions, kernel: K) -> K::Output
         Instructions::Scalar => f32::apart(Whole(kernel)),
         _ => Wide4::apart(Whole(kernel)),
     }
-}
-
-#[inline(never)]
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-fn with_avx2<P: Part<Wide8>>(part: P) -> P::Output {
-    part.run()
-}
-
-#[inline(never)]
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512dq,avx512vl,avx512bw")]
-fn with_avx512<P: Part<Wide16>>(part: P) -> P::Output {
-    part.run()
 }
 
 macro_rules! operator {

@@ -259,9 +259,11 @@ struct Step<
 /// How many neurons at a time is by measurement. Alone, one takes 131 ns for a car and four 84 (AMD Zen 3). On Zen 4, where
 /// weights are shared, with vectors of sixteen four take 15.6 ns if all sums are done before the first tanh, two 16.1, and
 /// two whose tanh comes at once 17.2; with vectors of eight two take 19.6 and one whose tanh comes at once 20.9; with
-/// vectors of four two take 38.1 and 39.5. Weights of each car's own come from the second cache, and the tanh of one
-/// neuron fills the time that those of the next one take: 24 ns with vectors of sixteen, else 26 or more. A group has to fill
-/// the time that its sums wait for each other, and to fit the registers; the larger it is, the less often inputs are loaded.
+/// vectors of four two take 38.1 and 39.5. Wide weights of each car's own come from the second cache, and the tanh of one
+/// neuron fills the time that those of the next one take: with vectors of sixteen one takes 24 ns, two or sums first 26 or
+/// more; with vectors of eight it matters little, and with vectors of four two are the fastest, sums first 47 and else 48.
+/// A group has to fill the time that its sums wait for each other, and to fit the registers; the larger it is, the less
+/// often inputs are loaded.
 #[inline(always)]
 pub(crate) fn step_of_slots<
     V: Vector,

@@ -54,7 +54,7 @@ use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
 use field::Field;
 use grid::{Grid, Turned};
-use later::Later;
+use later::{Added, Later};
 use rounding::MOST_ERROR;
 use shelf::{Question, Shelf, Sure};
 use std::sync::Arc;
@@ -174,7 +174,7 @@ impl Lookout {
         }
         for question in ones(open) {
             let (car, beam) = (question / BEAMS, question % BEAMS);
-            let (ray, distance) = (&rays[car].ray(beam), &mut distances[question]);
+            let (ray, distance) = (&ray_of(rays, question), &mut distances[question]);
             for lane in ones(asked.open(question)) {
                 let heading = poses[car].heading.lanes()[lane];
                 let ray = beams::in_lane(ray, lane);
@@ -216,7 +216,7 @@ impl Lookout {
         let mut open = 0;
         for (names, questions) in questions.into_iter().enumerate() {
             for question in ones(questions) {
-                let (ray, mut met) = (rays[question / BEAMS].ray(question % BEAMS), Met::nothing());
+                let (ray, mut met) = (ray_of(rays, question), Met::nothing());
                 for round in 0..names {
                     let names = asked.names(question, round);
                     self.test::<V, IS_LARGE, HAS_DISCS>(&mut met, &ray, names);
@@ -234,9 +234,9 @@ impl Lookout {
         &self,
         Test { asked, rays, distances, first, later }: Test<'_, V, Q>,
     ) -> u32 {
-        let mut added = later.begin();
+        let mut added = Added::default();
         for (question, first) in first.iter_mut().enumerate() {
-            let ray = &rays[question / BEAMS].ray(question % BEAMS);
+            let ray = &ray_of(rays, question);
             let mut met = Met::nothing();
             let names = asked.longest(question);
             if names > 0 {
@@ -458,6 +458,12 @@ struct Test<'a, V, const Q: usize> {
     distances: &'a mut [V],
     first: &'a mut [Met<V>; Q],
     later: &'a mut Later<V, Q>,
+}
+
+/// The beams that a question is about.
+#[inline(always)]
+fn ray_of<V: Vector>(rays: &[Rays<V>], question: usize) -> Ray<V> {
+    rays[question / BEAMS].ray(question % BEAMS)
 }
 
 /// Whether a body does not reach beyond another, but for what rounding adds to it, which the margins

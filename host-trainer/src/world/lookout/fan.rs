@@ -136,6 +136,55 @@ impl Beam {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vector::{Instructions, Kernel, Vector};
+
+    /// Casts the beams of fans in turn, in the same place.
+    struct Cast<'a>(&'a [Fan]);
+
+    impl Kernel for Cast<'_> {
+        type Output = ();
+
+        #[inline(always)]
+        fn run<V: Vector>(self) {
+            let mut rays = Rays::default();
+            for (turn, fan) in self.0.iter().enumerate() {
+                let pose = Pose::new(1.5 + turn as f32, -0.5, 0.3 * turn as f32);
+                let Pose { x, y, heading, cos, sin } = pose;
+                let [x, y, heading, cos, sin] = [x, y, heading, cos, sin].map(V::from);
+                fan.cast(&Pose { x, y, heading, cos, sin }, &mut rays);
+                for (beam, Beam { mount, .. }) in fan.beams.iter().enumerate() {
+                    let Ray { origin, direction } = rays.ray(beam);
+                    let expected = pose.to_world(mount.x, mount.y);
+                    let (sin, cos) = sin_cos(pose.heading + mount.angle);
+                    for lane in 0..V::WIDTH {
+                        let origin = (origin.0.lanes()[lane], origin.1.lanes()[lane]);
+                        assert_eq!(origin, expected, "beam {beam} in turn {turn}");
+                        let [x, y] = [direction.0.lanes()[lane], direction.1.lanes()[lane]];
+                        assert!((x - cos).abs() + (y - sin).abs() < 1e-5, "{beam} in {turn}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn beams_start_where_they_are_mounted_whoever_cast_theirs_before() {
+        let fan = |origins: [[f32; 2]; BEAMS]| {
+            let mut angle = -0.6;
+            let mounts = origins.map(|[x, y]| {
+                angle += 0.2;
+                BeamMount { x, y, angle }
+            });
+            Fan::new(&mounts, 10.0)
+        };
+        let one = fan([[0.2, 0.1]; BEAMS]);
+        let other = fan([[-0.1, 0.0]; BEAMS]);
+        let many = fan([[0.0, 0.1], [0.1, 0.1], [0.2, 0.0], [0.1, -0.1], [0.0, -0.1]]);
+        let fans = [one.clone(), many.clone(), other, many, one];
+        for set in Instructions::available() {
+            set.run(Cast(&fans));
+        }
+    }
 
     fn fetched(degrees: [f32; BEAMS], x: f32) -> [bool; BEAMS] {
         let mut mounts =

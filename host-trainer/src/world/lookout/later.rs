@@ -13,7 +13,8 @@ use controller_core::geometry::Ray;
 /// A word's half of each beam.
 type Halves<const Q: usize> = [[u32; MOST_LANES]; Q];
 
-/// How many beams have been added.
+/// How many beams have been added; none to begin with.
+#[derive(Default)]
 pub(super) struct Added(usize);
 
 /// Beams of `Q` questions, in the order in which they were added.
@@ -26,7 +27,7 @@ pub(super) struct Later<V, const Q: usize> {
     met: [[V; Q]; 2],
     /// The lanes of each question whose beams these are, as bits.
     lanes: [u32; Q],
-    /// How many there are.
+    /// How many there are, once [all are added](Self::end).
     count: usize,
 }
 
@@ -43,12 +44,6 @@ impl<V: Vector, const Q: usize> Later<V, Q> {
         }
     }
 
-    /// None again; `count` is how many there are by now.
-    #[inline(always)]
-    pub(super) fn begin(&mut self) -> Added {
-        Added(0)
-    }
-
     /// Adds those of a question's beams that may meet more than the first obstacle named. Every question is added, or
     /// [none of it](Self::add_none), once and in order: so there is always room.
     #[inline(always)]
@@ -62,6 +57,7 @@ impl<V: Vector, const Q: usize> Later<V, Q> {
         let lanes = V::lanes_with(halves, u32::MAX << NAME);
         let Ray { origin, direction } = ray;
         let numbers = [origin.0, origin.1, direction.0, direction.1];
+        debug_assert!(*count <= question * V::WIDTH, "every question once and in order");
         // It is no farther out; said so, writing needs no test.
         let place = (*count).min((Q - 1) * V::WIDTH);
         for (all, number) in self.rays.iter_mut().zip(numbers) {
@@ -180,7 +176,7 @@ mod tests {
         fn run<V: Vector>(self) {
             let mut later = Later::<V, QUESTIONS>::new();
             for row in self {
-                let mut added = later.begin();
+                let mut added = Added::default();
                 let mut expected = Vec::new();
                 for question in 0..QUESTIONS {
                     let halves = row.halves(question);
