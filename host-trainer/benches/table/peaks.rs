@@ -2,7 +2,7 @@
 
 use crate::row::Row;
 use crate::timing::median;
-use host_trainer::vector::{Instructions, Kernel, Vector};
+use host_trainer::vector::{Instructions, Kernel, MOST_LANES, Vector};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -12,8 +12,14 @@ const ROUNDS: usize = 7;
 /// than AVX2 has registers for.
 const CHAINS: usize = 12;
 
-/// Chains of a product and then a sum, which take twice as long: all registers of AVX2 but two for the constants.
-const MIXED_CHAINS: usize = 14;
+/// Products, and as many sums that they are added to. With a constant they fill all registers but one: AVX-512 has 32, the
+/// others 16.
+const fn mixed<V: Vector>() -> usize {
+    if V::WIDTH == MOST_LANES { MOST_MIXED } else { 7 }
+}
+
+/// The most of them.
+const MOST_MIXED: usize = 15;
 
 /// Vectors that are read one after the other without waiting.
 const READ_TOGETHER: usize = 8;
@@ -25,7 +31,7 @@ pub(crate) struct Peaks {
     pub(crate) add: f64,
     /// Products, in numbers.
     pub(crate) mul: f64,
-    /// Products and sums in turn, in numbers: what a network is made of.
+    /// Products and sums of them, in numbers of both: what a network is made of.
     pub(crate) mixed: f64,
     /// Quotients, in numbers.
     pub(crate) div: f64,
@@ -110,14 +116,16 @@ impl Kernel for Measure {
                 CHAINS * V::WIDTH
             }
             Work::Mixed => {
-                let mut mixed = [one; MIXED_CHAINS];
+                let (mut products, mut sums) = ([zero; MOST_MIXED], [zero; MOST_MIXED]);
                 for _ in 0..self.rounds {
-                    for chain in &mut mixed {
-                        *chain = *chain * one + zero;
+                    let both = products.iter_mut().zip(&mut sums);
+                    for (product, sum) in both.take(const { mixed::<V>() }) {
+                        *product = *product * one;
+                        *sum = *sum + *product;
                     }
                 }
-                black_box(mixed);
-                2 * MIXED_CHAINS * V::WIDTH
+                black_box(sums);
+                2 * mixed::<V>() * V::WIDTH
             }
             Work::Div => {
                 for _ in 0..self.rounds {
