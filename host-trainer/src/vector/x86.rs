@@ -293,6 +293,28 @@ macro_rules! turned {
     }};
 }
 
+/// Implements [`Vector::places_around`].
+macro_rules! places_around {
+    (
+        $nearest:ident, $splat:ident, $load:ident, $store:ident,
+        $add:ident, $and:ident, $shift_left:ident
+    ) => {
+        #[inline(always)]
+        fn places_around(self, parts: u32, bases: &[u32; MOST_LANES]) -> [u32; MOST_LANES] {
+            let mut places = [0; MOST_LANES];
+            // SAFETY: this type is only named where the CPU has its instructions; there are bases for all
+            // lanes, and there is room. A CPU rounds so unless it is told otherwise, which nobody does.
+            unsafe {
+                let shift = _mm_cvtsi64_si128(i64::from(parts.trailing_zeros()));
+                let bases = $shift_left($load(bases.as_ptr().cast()), shift);
+                let part = $and($nearest(self.0), $splat((parts - 1).cast_signed()));
+                $store(places.as_mut_ptr().cast(), $add(bases, part));
+            }
+            places
+        }
+    };
+}
+
 impl Vector for Wide4 {
     const WIDTH: usize = 4;
 
@@ -316,20 +338,15 @@ impl Vector for Wide4 {
         places
     }
 
-    #[inline(always)]
-    fn places_around(self, parts: u32, bases: &[u32; MOST_LANES]) -> [u32; MOST_LANES] {
-        let mut places = [0; MOST_LANES];
-        // SAFETY: this type is only named where the CPU has its instructions; there are bases for all
-        // lanes, and there is room. A CPU rounds so unless it is told otherwise, which nobody does.
-        unsafe {
-            let shift = _mm_cvtsi64_si128(i64::from(parts.trailing_zeros()));
-            let bases = _mm_sll_epi32(_mm_loadu_si128(bases.as_ptr().cast()), shift);
-            let part =
-                _mm_and_si128(_mm_cvtps_epi32(self.0), _mm_set1_epi32((parts - 1).cast_signed()));
-            _mm_storeu_si128(places.as_mut_ptr().cast(), _mm_add_epi32(bases, part));
-        }
-        places
-    }
+    places_around!(
+        _mm_cvtps_epi32,
+        _mm_set1_epi32,
+        _mm_loadu_si128,
+        _mm_storeu_si128,
+        _mm_add_epi32,
+        _mm_and_si128,
+        _mm_sll_epi32
+    );
 
     #[inline(always)]
     fn rows<R: RowOfLane>(rows: R) -> [Self; 4] {
@@ -370,22 +387,15 @@ impl Vector for Wide8 {
         places
     }
 
-    #[inline(always)]
-    fn places_around(self, parts: u32, bases: &[u32; MOST_LANES]) -> [u32; MOST_LANES] {
-        let mut places = [0; MOST_LANES];
-        // SAFETY: this type is only named where the CPU has its instructions; there are bases for all
-        // lanes, and there is room. A CPU rounds so unless it is told otherwise, which nobody does.
-        unsafe {
-            let shift = _mm_cvtsi64_si128(i64::from(parts.trailing_zeros()));
-            let bases = _mm256_sll_epi32(_mm256_loadu_si256(bases.as_ptr().cast()), shift);
-            let part = _mm256_and_si256(
-                _mm256_cvtps_epi32(self.0),
-                _mm256_set1_epi32((parts - 1).cast_signed()),
-            );
-            _mm256_storeu_si256(places.as_mut_ptr().cast(), _mm256_add_epi32(bases, part));
-        }
-        places
-    }
+    places_around!(
+        _mm256_cvtps_epi32,
+        _mm256_set1_epi32,
+        _mm256_loadu_si256,
+        _mm256_storeu_si256,
+        _mm256_add_epi32,
+        _mm256_and_si256,
+        _mm256_sll_epi32
+    );
 
     #[inline(always)]
     fn rows<R: RowOfLane>(rows: R) -> [Self; 4] {
@@ -429,22 +439,15 @@ impl Vector for Wide16 {
         places
     }
 
-    #[inline(always)]
-    fn places_around(self, parts: u32, bases: &[u32; MOST_LANES]) -> [u32; MOST_LANES] {
-        let mut places = [0; MOST_LANES];
-        // SAFETY: this type is only named where the CPU has its instructions; there are bases for all
-        // lanes, and there is room. A CPU rounds so unless it is told otherwise, which nobody does.
-        unsafe {
-            let shift = _mm_cvtsi64_si128(i64::from(parts.trailing_zeros()));
-            let bases = _mm512_sll_epi32(_mm512_loadu_si512(bases.as_ptr().cast()), shift);
-            let part = _mm512_and_si512(
-                _mm512_cvtps_epi32(self.0),
-                _mm512_set1_epi32((parts - 1).cast_signed()),
-            );
-            _mm512_storeu_si512(places.as_mut_ptr().cast(), _mm512_add_epi32(bases, part));
-        }
-        places
-    }
+    places_around!(
+        _mm512_cvtps_epi32,
+        _mm512_set1_epi32,
+        _mm512_loadu_si512,
+        _mm512_storeu_si512,
+        _mm512_add_epi32,
+        _mm512_and_si512,
+        _mm512_sll_epi32
+    );
 
     #[inline(always)]
     fn rows<R: RowOfLane>(rows: R) -> [Self; 4] {
