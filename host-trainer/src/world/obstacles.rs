@@ -154,9 +154,14 @@ impl Obstacles {
 
     /// The longest wall or the widest disc, metres.
     pub(super) fn largest(&self) -> f64 {
+        self.largest_within(f64::INFINITY)
+    }
+
+    /// The same of those that are no larger than this.
+    pub(super) fn largest_within(&self, most: f64) -> f64 {
         let walls = self.walls.iter().map(|wall| Shape::from(wall).length);
         let discs = self.discs.iter().map(|disc| 2.0 * f64::from(disc.radius));
-        walls.chain(discs).fold(0.0, f64::max)
+        walls.chain(discs).filter(|size| *size <= most).fold(0.0, f64::max)
     }
 
     /// How far apart the ends of walls that meet may lie, metres: both are lengthened there, by

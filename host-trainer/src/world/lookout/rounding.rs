@@ -10,6 +10,7 @@
 //!   bound for a beam that runs along a wall: such a wall is never left out;
 //! - a disc's distance is off by at most the root of 2 · radius · 6 sizes, where a beam grazes it.
 
+use crate::world::Obstacles;
 use crate::world::shape::{Rect, Shape};
 
 /// Half a unit in the last place of 1.
@@ -41,12 +42,10 @@ pub(super) struct Limits {
 }
 
 impl Limits {
-    /// For obstacles no larger than `largest`, or that hide nothing, which are seen from cells no
-    /// larger than `cell`, by beams that reach `range`; the ends of walls that meet are at most `joint`
-    /// apart. Metres.
-    pub(super) fn new(range: f32, largest: f64, cell: f64, joint: f32) -> Self {
-        let joint = f64::from(joint);
-        let largest = largest.min(MOST_RANGES * f64::from(range));
+    /// For these obstacles, seen from cells no larger than `cell` by beams that reach `range`, metres.
+    pub(super) fn new(range: f32, obstacles: &Obstacles, cell: f64) -> Self {
+        let joint = f64::from(obstacles.joint(range));
+        let largest = obstacles.largest_within(MOST_RANGES * f64::from(range));
         let ahead = AHEAD * UNIT * (1.01 * f64::from(range) + 4.0 * (largest + cell));
         // So much that a beam which keeps clear of a wall's ends by it has a distance to that wall
         // with an error of an eighth of its length. More than a joint, on which `cone`, `discs` and

@@ -157,8 +157,7 @@ impl Shelf {
         is_for_beams: bool,
     ) -> Self {
         let (walls, discs) = (obstacles.walls(), obstacles.discs());
-        let limits =
-            Limits::new(range, obstacles.largest(), grid.diagonal(), obstacles.joint(range));
+        let limits = Limits::new(range, obstacles, grid.diagonal());
         let table = |nothing: Row, wall: fn(&Segment<f32>) -> Row| {
             let mut rows = vec![nothing];
             rows.extend(walls.iter().map(wall));
