@@ -18,6 +18,7 @@
 //! | `glance` | what many cars see at once |
 //! | `grid` | which cell, which part of a turn |
 //! | `beams`, `later` | the tests, many beams side by side; those that have to be tested with more than others |
+//! | `contact` | the bodies, side by side those that may touch something |
 //! | `shelf` | what is found once for each cell |
 //! | `words`, `asked` | how it is kept in few bytes, and read for many beams at once |
 //! | `field` | how far beams may go at once, where lists would be long, and the few long walls there |
@@ -30,6 +31,7 @@ mod beams;
 mod candidate;
 mod cell;
 mod cone;
+mod contact;
 mod discs;
 mod fan;
 mod field;
@@ -48,8 +50,8 @@ use super::obstacles::Obstacles;
 use crate::vector::{Vector, ones};
 use asked::{Asked, ByNames, IN_HALF, Names};
 use beams::Met;
-use cell::{BINS, SECTORS};
-use controller_core::geometry::{Body, Disc, Ray, Segment};
+use cell::BINS;
+use controller_core::geometry::{Body, Ray};
 use controller_core::motion::Pose;
 use controller_core::observation::BEAMS;
 use field::Field;
@@ -304,62 +306,6 @@ impl Lookout {
         }
     }
 
-    /// Which of the bodies at these poses touch an obstacle's edge, or lie inside a disc, as
-    /// bits; only those whose bit in `live` is set. Exact for every body within the largest.
-    #[inline(always)]
-    pub fn touches<V: Vector, const N: usize>(
-        &self,
-        body: &Body<f32>,
-        poses: &[Pose<V>; N],
-        live: &[u32; N],
-    ) -> [u32; N] {
-        debug_assert!(is_within(body, &self.largest), "{body:?} reaches beyond {:?}", self.largest);
-        let mut live = *live;
-        if let Some(field) = &self.field {
-            for car in 0..N {
-                live[car] &= field.may_touch(&poses[car]);
-            }
-        }
-        let mut asked = Asked::<N>::new();
-        for car in 0..N {
-            if live[car] == 0 {
-                continue;
-            }
-            let shelves = self.shelf.shelves(self.grid.locate((poses[car].x, poses[car].y)));
-            let heading = Turned::<V, SECTORS>::by(poses[car].heading);
-            self.shelf.ask_near(&mut asked, car, &shelves, heading);
-        }
-        let by_names = self.shelf.answer_near::<V, N>(&mut asked, &live);
-        let Body { rear, front, half_width } = *body;
-        let wide =
-            Body { rear: V::from(rear), front: V::from(front), half_width: V::from(half_width) };
-        let mut touched = [0; N];
-        for (names, cars) in by_names.into_iter().enumerate().skip(1) {
-            for car in ones(cars) {
-                for round in 0..names {
-                    let [a, b, c, d] = self.shelf.faces(asked.names(car, round));
-                    let wall = Segment { a: (a, b), b: (c, d) };
-                    let mut touches = wide.touches_segment(&poses[car], &wall);
-                    if self.shelf.has_discs() {
-                        let is_disc = beams::are_discs(&[a, b, c, d]);
-                        let disc = Disc { centre: (a, b), radius: c };
-                        let in_disc = wide.touches_disc(&poses[car], &disc);
-                        touches = (touches & !is_disc) | (in_disc & is_disc);
-                    }
-                    touched[car] |= V::bits(touches);
-                }
-            }
-        }
-        for car in 0..N {
-            let open = asked.unknown::<V>(car) & live[car];
-            touched[car] &= live[car] & !open;
-            if open != 0 {
-                touched[car] |= self.settle_touch(body, &poses[car], open);
-            }
-        }
-        touched
-    }
-
     /// The distance along a beam whose question is open, if there is a longer list in a word.
     #[inline(never)]
     fn by_whole<const N: usize>(
@@ -405,41 +351,6 @@ impl Lookout {
         if distance <= self.range { distance } else { f32::INFINITY }
     }
 
-    #[cold]
-    #[inline(never)]
-    fn settle_touch<V: Vector>(&self, body: &Body<f32>, pose: &Pose<V>, open: u32) -> u32 {
-        let mut touched = 0;
-        for lane in ones(open) {
-            let number = |number: V| number.lanes()[lane];
-            let pose = Pose {
-                x: number(pose.x),
-                y: number(pose.y),
-                heading: number(pose.heading),
-                cos: number(pose.cos),
-                sin: number(pose.sin),
-            };
-            let cell = self.grid.locate((pose.x, pose.y)) as u32;
-            let sector = Turned::<f32, SECTORS>::by(pose.heading).part();
-            let touches = self.settled_touch(body, &pose, cell, sector);
-            touched |= u32::from(touches) << lane;
-        }
-        touched
-    }
-
-    fn settled_touch(&self, body: &Body<f32>, pose: &Pose<f32>, cell: u32, sector: u32) -> bool {
-        let mut touches = false;
-        let question = Question::Near(sector);
-        let known = self.shelf.each(&self.grid, &self.obstacles, cell, question, |row| {
-            let [a, b, c, d] = *row;
-            touches |= if beams::are_discs(row) {
-                body.touches_disc(pose, &Disc { centre: (a, b), radius: c })
-            } else {
-                body.touches_segment(pose, &Segment { a: (a, b), b: (c, d) })
-            };
-        });
-        if known.is_some() { touches } else { self.obstacles.touch(body, pose) }
-    }
-
     /// Whether beams walk through a field of distances, as in a crowd, instead of asking lists.
     pub fn beams_walk(&self) -> bool {
         self.field.is_some()
@@ -464,12 +375,4 @@ struct Test<'a, V, const Q: usize> {
 #[inline(always)]
 fn ray_of<V: Vector>(rays: &[Rays<V>], question: usize) -> Ray<V> {
     rays[question / BEAMS].ray(question % BEAMS)
-}
-
-/// Whether a body does not reach beyond another, but for what rounding adds to it, which the margins
-/// of contacts allow for.
-fn is_within(body: &Body<f32>, largest: &Body<f32>) -> bool {
-    let reach = |body: &Body<f32>| [-body.rear, body.front, body.half_width];
-    let pairs = reach(body).into_iter().zip(reach(largest));
-    pairs.into_iter().all(|(own, most)| own <= most + 1.0e-6)
 }

@@ -221,6 +221,17 @@ impl<const N: usize> Asked<N> {
     }
 }
 
+impl Asked<1> {
+    /// Writes down the word of a lane of the only question, and the legend that starts there.
+    #[inline(always)]
+    pub(super) fn put(&mut self, lane: usize, word: Word, legend_start: u32) {
+        self.low[0][lane] = word as u32;
+        self.high[0][lane] = (word >> u32::BITS) as u32;
+        self.legend_starts[0][lane] = legend_start;
+        self.any[0] |= word;
+    }
+}
+
 /// How many names the longest of some words has, of which this is set in any.
 #[inline(always)]
 fn longest(any: Word) -> usize {

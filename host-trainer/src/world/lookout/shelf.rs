@@ -35,6 +35,8 @@ pub(super) struct Shelf {
     seen: Box<[AtomicU16]>,
     /// What the body can touch, by shelf and sector, likewise.
     near: Box<[AtomicU16]>,
+    /// A [`Vicinity`] by cell, which mostly is all that is asked.
+    vicinities: Box<[AtomicU64]>,
     words: Words,
     /// What words do not say, by shelf; set once the shelf's words are written.
     lists: Box<[OnceLock<Box<Lists>>]>,
@@ -92,6 +94,29 @@ impl Spot {
 
     fn bits(self) -> u64 {
         u64::from(self.legend) << 32 | u64::from(self.shelf)
+    }
+}
+
+/// What the body can touch from a cell: in which sectors nothing, as bits, and after these the number of a word that
+/// names what there is in all others. Nothing is set where nobody has been yet.
+#[derive(Clone, Copy)]
+struct Vicinity(u64);
+
+impl Vicinity {
+    fn new(free: u32, number: u16) -> Self {
+        Self(u64::from(number) << u32::BITS | u64::from(free))
+    }
+
+    /// 1 if nothing can be touched in this sector.
+    #[inline(always)]
+    fn is_free(self, sector: u32) -> u32 {
+        (self.0 as u32) >> sector & 1
+    }
+
+    /// The number of the word.
+    #[inline(always)]
+    fn number(self) -> u16 {
+        (self.0 >> u32::BITS) as u16
     }
 }
 
@@ -193,6 +218,7 @@ impl Shelf {
                 0
             }),
             near: bytemuck::zeroed_slice_box(shelves * SECTORS as usize),
+            vicinities: bytemuck::zeroed_slice_box(grid.cells() + 1),
             words: Words::new(),
             lists: (0..shelves).map(|_| OnceLock::new()).collect(),
             large,
@@ -234,18 +260,35 @@ impl Shelf {
         asked.fetch::<V>(question, &self.seen);
     }
 
-    /// Asks what bodies with these headings can touch, and has it fetched.
+    /// Which bodies may touch something, as bits. A body's place is that of its sector, among those of all cells.
     #[inline(always)]
-    pub(super) fn ask_near<V: Vector, const N: usize>(
-        &self,
-        asked: &mut Asked<N>,
-        question: usize,
-        shelves: &Shelves,
-        heading: Turned<V, SECTORS>,
-    ) {
-        let places = heading.places(&shelves.shelves);
-        asked.ask(question, places, self.legend_starts(shelves));
-        asked.fetch::<V>(question, &self.near);
+    pub(super) fn may_touch<V: Vector>(&self, places: &[u32; MOST_LANES]) -> u32 {
+        let mut free = 0;
+        for place in places[..V::WIDTH].iter().rev() {
+            free = free << 1 | self.vicinity(*place).is_free(place % SECTORS);
+        }
+        !free & (u32::MAX >> (u32::BITS - V::WIDTH as u32))
+    }
+
+    /// Answers what the body in such a place can touch, in one lane of the only question.
+    #[inline(always)]
+    pub(super) fn answer_near(&self, asked: &mut Asked<1>, lane: usize, place: u32) {
+        let (cell, sector) = (place / SECTORS, place % SECTORS);
+        let Spot { shelf, legend } = match &self.large {
+            None => Spot { shelf: cell, legend: 0 },
+            Some(large) => Spot::of(large.spots[cell as usize].load(Ordering::Relaxed)),
+        };
+        let mut word = self.words.all().of_number(self.vicinity(place).number());
+        if word & UNKNOWN != 0 {
+            word = self.words.all().of(&self.near[(shelf * SECTORS + sector) as usize]);
+        }
+        asked.put(lane, word, Meanings::start(legend));
+    }
+
+    /// What is near the cell of a body's place.
+    #[inline(always)]
+    fn vicinity(&self, place: u32) -> Vicinity {
+        Vicinity(self.vicinities[(place / SECTORS) as usize].load(Ordering::Acquire))
     }
 
     #[inline(always)]
@@ -272,16 +315,6 @@ impl Shelf {
         live: u32,
     ) {
         asked.close(question, &self.seen, self.words.all(), live);
-    }
-
-    /// Answers what bodies can touch, likewise.
-    #[inline(always)]
-    pub(super) fn answer_near<V: Vector, const N: usize>(
-        &self,
-        asked: &mut Asked<N>,
-        live: &[u32],
-    ) -> ByNames {
-        asked.answer::<V>(&self.near, self.words.all(), live, false)
     }
 
     /// Has fetched what says where these cells' shelves are.
@@ -474,12 +507,20 @@ impl Shelf {
         if self.is_for_beams {
             self.surroundings.seen(obstacles, &rect, see);
         }
+        let (mut free, mut close) = (0, Vec::new());
         self.surroundings.near(obstacles, &rect, |sector, places| {
+            free |= u32::from(places.is_empty()) << sector;
+            close.extend(places);
             let at = (shelf * SECTORS + sector) as usize;
             if !write(&self.near[at], number_of(&self.words, places, 0)) {
                 near.keep(sector, places, f32::INFINITY);
             }
         });
+        close.sort_unstable();
+        close.dedup();
+        let number = number_of(&self.words, &close, 0).unwrap_or(0);
+        let Vicinity(bits) = Vicinity::new(free, number);
+        self.vicinities[cell as usize].store(bits, Ordering::Release);
         Lists { seen: seen.done(), near: near.done() }
     }
 
