@@ -554,6 +554,8 @@ fn a_beam_that_passes_a_corner_by_a_hair_meets_what_every_obstacle_says() {
                     Segment { a: (x, y), b: (x + 0.5, y) }
                 };
                 walls.extend((0..300).map(post));
+                // In sight, and so long that it hides nothing, nor makes others doubtful.
+                walls.push(Segment { a: (x - 30.0, y + 5.5), b: (x + 30.0, y + 6.5) });
             }
             let fan = Fan::new(&mounts(USUAL), 10.0);
             let mut pair = Pair::by(cells, walls, Vec::new(), fan, BODY);
