@@ -259,12 +259,16 @@ fn threads_that_come_to_new_places_together_see_what_one_alone_does() {
         let (fan, cars) = (&pair.fan, &poses);
         let visit = |first: usize| {
             let mut glance = Glance::<f32, 1, BEAMS>::default();
-            let mut seen = vec![[0; BEAMS]; cars.len()];
+            let mut seen = vec![([0; BEAMS], [0]); cars.len()];
             for at in 0..cars.len() {
                 // All begin in the same places, then go on in different ones.
                 let at = if at < 50 { at } else { (at + first) % cars.len() };
-                shared.look(fan, &[cars[at]], &[1], &mut glance);
-                seen[at] = glance.distances[0].map(f32::to_bits);
+                let car = &[cars[at]];
+                // Some look around first, some feel.
+                let felt_first = (first > 200).then(|| shared.touches(&BODY, car, &[1]));
+                shared.look(fan, car, &[1], &mut glance);
+                let touched = felt_first.unwrap_or_else(|| shared.touches(&BODY, car, &[1]));
+                seen[at] = (glance.distances[0].map(f32::to_bits), touched);
             }
             seen
         };
@@ -274,10 +278,11 @@ fn threads_that_come_to_new_places_together_see_what_one_alone_does() {
         });
         for (at, pose) in poses.iter().enumerate() {
             pair.compare(pose);
-            let alone = pair.look(pose).map(f32::to_bits);
-            let seen = by_all.iter().map(|seen| seen[at]).filter(|seen| *seen != [0; BEAMS]);
+            let alone = (pair.look(pose).map(f32::to_bits), [u32::from(pair.feel(&BODY, pose))]);
+            let seen = by_all.iter().map(|seen| seen[at]).filter(|(seen, _)| *seen != [0; BEAMS]);
             assert!(seen.clone().count() > 0 && seen.into_iter().all(|seen| seen == alone));
         }
+        assert!(posts == 40 || pair.touched > 50, "{} touches", pair.touched);
     }
 }
 

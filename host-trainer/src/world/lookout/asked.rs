@@ -222,7 +222,7 @@ impl<const N: usize> Asked<N> {
 }
 
 impl Asked<1> {
-    /// Writes down the word of a lane of the only question, and the legend that starts there.
+    /// Writes down the word of a lane of the only question, and where its legend starts.
     #[inline(always)]
     pub(super) fn put(&mut self, lane: usize, word: Word, legend_start: u32) {
         self.low[0][lane] = word as u32;

@@ -1,7 +1,7 @@
 //! What bodies touch.
 //!
-//! Most bodies are near nothing, and one bit says so. Those that are not stand side by side without gaps, whichever
-//! car they are, and are tested with the same walls and discs as ever.
+//! Most bodies are near nothing, and one bit says so. The others stand side by side without gaps, whichever car
+//! they are.
 
 use super::Lookout;
 use super::asked::Asked;
@@ -47,7 +47,9 @@ impl Lookout {
         let mut close = 0_u128;
         for car in cars() {
             let mut lanes = live[car] & self.shelf.may_touch::<V>(&places[car]);
-            if let Some(field) = &self.field {
+            if lanes != 0
+                && let Some(field) = &self.field
+            {
                 lanes &= field.may_touch(&poses[car]);
             }
             close |= u128::from(lanes) << (car * V::WIDTH);

@@ -36,8 +36,8 @@ pub(super) struct Limits {
     pub(super) ahead: f64,
     /// A beam that passes a wall's end within this is not to be trusted, metres.
     pub(super) slack: f64,
-    /// Obstacles larger than this hide nothing, metres: rounding grows with their size, and so would
-    /// the slack of a whole world with the walls around it.
+    /// The largest obstacle of at most [`MOST_RANGES`] ranges, metres. Larger ones hide nothing: rounding
+    /// grows with their size, and so would the slack of a whole world with the walls around it.
     pub(super) largest: f64,
 }
 

@@ -98,7 +98,7 @@ impl Spot {
 }
 
 /// What the body can touch from a cell: in which sectors nothing, as bits, and after these the number of a word that
-/// names what there is in all others. Nothing is set where nobody has been yet.
+/// names what there is in all others; 0 if these are too many for a word. All is 0 where nobody has been yet.
 #[derive(Clone, Copy)]
 struct Vicinity(u64);
 
@@ -274,11 +274,13 @@ impl Shelf {
     #[inline(always)]
     pub(super) fn answer_near(&self, asked: &mut Asked<1>, lane: usize, place: u32) {
         let (cell, sector) = (place / SECTORS, place % SECTORS);
+        // Before the spot: whoever sees the number also sees the legend that its word is to be read by.
+        let number = self.vicinity(place).number();
         let Spot { shelf, legend } = match &self.large {
             None => Spot { shelf: cell, legend: 0 },
             Some(large) => Spot::of(large.spots[cell as usize].load(Ordering::Relaxed)),
         };
-        let mut word = self.words.all().of_number(self.vicinity(place).number());
+        let mut word = self.words.all().of_number(number);
         if word & UNKNOWN != 0 {
             word = self.words.all().of(&self.near[(shelf * SECTORS + sector) as usize]);
         }
@@ -557,7 +559,7 @@ impl Shelf {
         let legends = self.large.as_ref().map_or(0, |large| large.legends.bytes());
         let of_bin = size_of::<u16>() + self.large.as_ref().map_or(0, |_| size_of::<Whole>());
         let bins = if self.is_for_beams { BINS as usize * of_bin } else { 0 };
-        let words = bins + SECTORS as usize * size_of::<u16>();
+        let words = bins + SECTORS as usize * size_of::<u16>() + size_of::<Vicinity>();
         let lists = self.lists.iter().filter_map(OnceLock::get);
         let long: usize = lists.map(|lists| lists.seen.bytes() + lists.near.bytes()).sum();
         Survey {
