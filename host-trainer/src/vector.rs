@@ -21,6 +21,7 @@ mod x86;
 use crate::failure::Failure;
 use bytemuck::Pod;
 use controller_core::lane::Lane;
+use controller_core::motion::Pose;
 use std::fmt;
 use std::str::FromStr;
 use std::sync::OnceLock;
@@ -117,6 +118,13 @@ pub fn ones(mut bits: u32) -> impl Iterator<Item = usize> {
         bits &= bits.checked_sub(1)?;
         Some(place as usize)
     })
+}
+
+/// The pose of one lane.
+pub(crate) fn pose_in_lane<V: Vector>(pose: &Pose<V>, lane: usize) -> Pose<f32> {
+    let Pose { x, y, heading, cos, sin } = *pose;
+    let [x, y, heading, cos, sin] = [x, y, heading, cos, sin].map(|number| number.lanes()[lane]);
+    Pose { x, y, heading, cos, sin }
 }
 
 /// Has the CPU fetch what lies at this place, so that it is there when it is read.

@@ -162,7 +162,7 @@ impl<'a, V: Vector> Cars<'a, V> {
     /// Where the car in this lane stands.
     #[cfg(test)]
     pub(super) fn pose_of(&self, lane: usize) -> Pose<f32> {
-        pose_of(&self.pose, lane)
+        crate::vector::pose_in_lane(&self.pose, lane)
     }
 
     /// Draws or looks up what the beams will misread in this period.
@@ -257,16 +257,5 @@ impl<'a, V: Vector> Cars<'a, V> {
             reached &= !collided;
         }
         Ends { collided, reached: reached & self.live }
-    }
-}
-
-#[cfg(test)]
-fn pose_of<V: Vector>(pose: &Pose<V>, lane: usize) -> Pose<f32> {
-    Pose {
-        x: pose.x.lanes()[lane],
-        y: pose.y.lanes()[lane],
-        heading: pose.heading.lanes()[lane],
-        cos: pose.cos.lanes()[lane],
-        sin: pose.sin.lanes()[lane],
     }
 }

@@ -9,7 +9,7 @@ use super::beams;
 use super::cell::SECTORS;
 use super::grid::Turned;
 use super::shelf::Question;
-use crate::vector::{MOST_LANES, Vector, ones};
+use crate::vector::{MOST_LANES, Vector, ones, pose_in_lane};
 use controller_core::geometry::{Body, Disc, Segment};
 use controller_core::motion::Pose;
 
@@ -18,6 +18,8 @@ struct Close<V> {
     poses: Pose<V>,
     /// Which they are: lane by lane of the first car, then of the next.
     from: [usize; MOST_LANES],
+    /// The cell and sector of each, see [`may_touch`](super::shelf::Shelf::may_touch).
+    places: [u32; MOST_LANES],
     /// What they may touch.
     asked: Asked<1>,
     count: usize,
@@ -78,6 +80,7 @@ impl Lookout {
         let mut row = Close {
             poses: Pose { x: zero, y: zero, heading: zero, cos: zero, sin: zero },
             from: [0; MOST_LANES],
+            places: [0; MOST_LANES],
             asked: Asked::new(),
             count: 0,
         };
@@ -91,8 +94,9 @@ impl Lookout {
             for (to, from) in to.into_iter().zip([x, y, heading, cos, sin]) {
                 to.lanes_mut()[row.count] = from.lanes()[lane];
             }
-            self.shelf.answer_near(&mut row.asked, row.count, places[car][lane]);
-            row.from[row.count] = from;
+            let place = places[car][lane];
+            self.shelf.answer_near(&mut row.asked, row.count, place);
+            (row.from[row.count], row.places[row.count]) = (from, place);
             row.count += 1;
         }
         row
@@ -121,26 +125,17 @@ impl Lookout {
         let all = u32::MAX >> (u32::BITS - *count as u32);
         match asked.unknown::<V>(0) & all {
             0 => touching & all,
-            open => touching & all & !open | self.settle_touch(body, poses, open),
+            open => touching & all & !open | self.settle_touch(body, row, open),
         }
     }
 
     #[cold]
     #[inline(never)]
-    fn settle_touch<V: Vector>(&self, body: &Body<f32>, pose: &Pose<V>, open: u32) -> u32 {
+    fn settle_touch<V: Vector>(&self, body: &Body<f32>, row: &Close<V>, open: u32) -> u32 {
         let mut touched = 0;
         for lane in ones(open) {
-            let number = |number: V| number.lanes()[lane];
-            let pose = Pose {
-                x: number(pose.x),
-                y: number(pose.y),
-                heading: number(pose.heading),
-                cos: number(pose.cos),
-                sin: number(pose.sin),
-            };
-            let cell = self.grid.locate((pose.x, pose.y)) as u32;
-            let sector = Turned::<f32, SECTORS>::by(pose.heading).part();
-            let touches = self.settled_touch(body, &pose, cell, sector);
+            let (cell, sector) = (row.places[lane] / SECTORS, row.places[lane] % SECTORS);
+            let touches = self.settled_touch(body, &pose_in_lane(&row.poses, lane), cell, sector);
             touched |= u32::from(touches) << lane;
         }
         touched

@@ -200,12 +200,7 @@ impl<V: Vector, const PARTS: u32> Turned<V, PARTS> {
 }
 
 impl<const PARTS: u32> Turned<f32, PARTS> {
-    /// Which part the angle lies in.
-    pub(super) fn part(self) -> u32 {
-        self.part_beside(0.0)
-    }
-
-    /// The same of one that is so many [parts](parts_of_turn) to the left.
+    /// Which part an angle lies in that is so many [parts](parts_of_turn) to the left.
     pub(super) fn part_beside(self, parts: f32) -> u32 {
         self.places_beside(parts, &[0; MOST_LANES])[0]
     }

@@ -251,7 +251,8 @@ impl Shelf {
         (heading, bins): (Turned<V, BINS>, f32),
     ) {
         let places = heading.places_beside(bins, &shelves.shelves);
-        asked.ask(question, places, self.legend_starts(shelves));
+        let legend_starts = self.large.as_ref().map(|_| &shelves.legend_starts);
+        asked.ask(question, places, legend_starts);
     }
 
     /// Has what the question asks for fetched.
@@ -291,11 +292,6 @@ impl Shelf {
     #[inline(always)]
     fn vicinity(&self, place: u32) -> Vicinity {
         Vicinity(self.vicinities[(place / SECTORS) as usize].load(Ordering::Acquire))
-    }
-
-    #[inline(always)]
-    fn legend_starts<'a>(&self, shelves: &'a Shelves) -> Option<&'a [u32; MOST_LANES]> {
-        self.large.as_ref().map(|_| &shelves.legend_starts)
     }
 
     /// Answers what beams can meet, for cars with any lane in `live`.
@@ -521,8 +517,7 @@ impl Shelf {
         close.sort_unstable();
         close.dedup();
         let number = number_of(&self.words, &close, 0).unwrap_or(0);
-        let Vicinity(bits) = Vicinity::new(free, number);
-        self.vicinities[cell as usize].store(bits, Ordering::Release);
+        self.vicinities[cell as usize].store(Vicinity::new(free, number).0, Ordering::Release);
         Lists { seen: seen.done(), near: near.done() }
     }
 
